@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Rigid bodies and contact materials as plain data: what the dictionary gives, what the DEM engine needs.
+#pragma once
+
+#include "geometry/solid.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace flotsam
+{
+
+/// Contact law of one pair of materials (paper eqs 11-14: linear spring, dashpot, Coulomb slider).
+struct ContactLaw
+{
+    double stiffness = 1e6;         ///< K_n = K_s [N/m], see perBody
+    double restitution = 0.2;       ///< normal, see flatRestitution
+    double frictionAngleDeg = 30;   ///< Coulomb friction tan(angle)
+    /// true: the stiffness is that of the BODY landing flat, each sphere of its flattest face carries an equal share.
+    /// false: that of each touching sphere (paper), so that n touching spheres are n times as stiff.
+    bool perBody = true;
+    /// perBody only. false: the restitution holds where one sphere touches (corners, crossing bars); flat landings
+    /// rebound less. true: it holds for a flat landing; single-sphere contacts rebound more.
+    bool flatRestitution = false;
+};
+
+/// A free rigid body. Body frame: centre of mass at the origin, principal axes of inertia.
+struct BodyDefinition
+{
+    std::string name;
+    std::shared_ptr<const Shape> shape;     ///< in the body frame
+    double mass = 0;                        ///< [kg], exact
+    double volume = 0;                      ///< exact volume of the shape [m^3]
+    Vec3 principalInertia = Vec3::Zero();   ///< [kg m^2], exact
+    std::vector<SurfaceSphere> spheres;     ///< DEM surface, body frame
+    int material = 0;                       ///< index of the contact material
+    Pose pose;                              ///< at the start
+    Motion motion;
+    double releaseTime = 0;                 ///< held in place until then [s]
+    bool isPlanar = false;                  ///< 2D scene: moves in the mesh plane only, see planeAxis
+    int planeAxis = 2;                      ///< normal of that plane
+};
+
+/// A structure the bodies can touch. Fixed, or moving as prescribed (then only spheres/planes as the engine can).
+struct WallDefinition
+{
+    enum class Kind { Plane, Surface };
+    std::string name;
+    Kind kind = Kind::Plane;
+    Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ(); ///< plane; normal points to the side of the bodies
+    TriSurface surface;                     ///< Surface: in space
+    int material = 0;
+};
+
+/// Dynamic state of one body.
+struct BodyState
+{
+    Pose pose;
+    Motion motion;
+    Vec3 angularMomentum = Vec3::Zero();    ///< space frame, about the centre of mass [kg m^2/s]
+};
+
+/// Force [N] and moment about the centre of mass [N m], space frame.
+struct Load
+{
+    Vec3 force = Vec3::Zero();
+    Vec3 moment = Vec3::Zero();
+};
+
+/// One touching pair at the end of an advance().
+struct Contact
+{
+    int body;       ///< index of the body
+    int other;      ///< index of the other body, or -1 - wall
+    Vec3 point;     ///< [m]
+    Vec3 force;     ///< on `body` [N], last sub-step
+    double overlap; ///< of the two DEM surfaces [m], > 0
+};
+
+} // namespace flotsam

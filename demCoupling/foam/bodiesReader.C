@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "demCoupling/foam/bodiesReader.H"
+#include "demCoupling/foam/bodyGroup.H"
+#include "demCoupling/foam/contactReader.H"
+#include "demCoupling/foam/meshWalls.H"
+#include "foam/dictionaryChecks.H"
+
+#include "IOdictionary.H"
+#include "OSspecific.H"
+#include "Time.H"
+#include "processorPolyPatch.H"
+
+#include <algorithm>
+
+namespace flotsam
+{
+
+namespace
+{
+
+Solid::Wall readWallKind(const Foam::dictionary& dict)
+{
+    const std::string kind = dict.getOrDefault<Foam::word>("wall", "noSlip");
+    if (kind == "noSlip") return Solid::Wall::NoSlip;
+    if (kind == "slip") return Solid::Wall::Slip;
+    failUnknown(dict, "wall", kind, {"noSlip", "slip"});
+}
+
+void readStructureGroup(const std::string& name, const Foam::dictionary& dict, const SceneFrame& frame, BodiesInput& input)
+{
+    checkKeywords(dict, {"shape", "material", "wall", "position", "orientation", "array", "motion", "contact", "facetSize"});
+    const auto shape = readShape(dict.subDict("shape"), frame.stlFolder);
+    const Pose first = readPose(dict);
+    const double facetSize = readNumberOr(dict, "facetSize", 0.25*thinnestExtent(*shape, frame), positive);
+    const bool touches = dict.getOrDefault<bool>("contact", true);
+    bool isArray = false;
+    int i = 0;
+    for (const Vec3& offset : readArray(dict, isArray))
+    {
+        StructureDefinition s;
+        s.group = name;
+        s.material = readMaterial(dict, "material", input.materials);
+        s.facetSize = facetSize;
+        s.wall = touches ? 0 : -1; // the number follows when the walls are made
+        s.solid.name = isArray ? text(name, ".", i++) : name;
+        s.solid.wall = readWallKind(dict);
+        s.solid.shape = shape;
+        s.solid.pose = {first.position + offset, first.orientation};
+        s.motion = readMotion(dict, s.solid.pose);
+        s.solid.kind = s.motion ? Solid::Kind::Prescribed : Solid::Kind::Fixed;
+        if (s.motion) s.motion(0, s.solid.pose, s.solid.motion);
+        input.structures.push_back(std::move(s));
+    }
+}
+
+void readStructures(const Foam::dictionary& dict, const SceneFrame& frame, BodiesInput& input)
+{
+    if (!dict.found("structures")) return;
+    for (const Foam::entry& e : dict.subDict("structures"))
+    {
+        if (!e.isDict()) failIn(dict.subDict("structures"), text("'", std::string(e.keyword()), "' must be a structure: name { shape {..} .. }."));
+        readStructureGroup(e.keyword(), e.dict(), frame, input);
+    }
+}
+
+std::vector<BodyGroup> readGroups(const Foam::dictionary& dict, const SceneFrame& frame)
+{
+    std::vector<BodyGroup> groups;
+    if (!dict.found("bodies")) return groups;
+    for (const Foam::entry& e : dict.subDict("bodies"))
+    {
+        if (!e.isDict()) failIn(dict.subDict("bodies"), text("'", std::string(e.keyword()), "' must be a body: name { shape {..} density ..; .. }."));
+        groups.push_back(readBodyGroup(e.keyword(), e.dict(), frame));
+    }
+    return groups;
+}
+
+/// Names of the mesh's patches that are DEM walls.
+std::vector<std::string> wallPatches(const Foam::dictionary& dict, const Foam::polyMesh& mesh)
+{
+    std::vector<std::string> walls, all;
+    for (const Foam::polyPatch& patch : mesh.boundaryMesh())
+    {
+        if (Foam::isA<Foam::processorPolyPatch>(patch)) continue;
+        all.push_back(patch.name());
+        if (patch.type() == "wall") walls.push_back(patch.name());
+    }
+    if (!dict.found("wallPatches")) return walls;
+    if (dict.lookup("wallPatches")[0].isWord())
+    {
+        const Foam::word choice = dict.get<Foam::word>("wallPatches");
+        if (choice != "all" && choice != "none") failUnknown(dict, "wallPatches", choice, {"all", "none", "(names of patches)"});
+        return choice == "all" ? walls : std::vector<std::string>();
+    }
+    walls.clear();
+    for (const Foam::word& name : dict.get<Foam::wordList>("wallPatches"))
+    {
+        if (std::find(all.begin(), all.end(), name) == all.end()) failUnknown(dict, "patch", name, all);
+        walls.push_back(name);
+    }
+    return walls;
+}
+
+TriSurface inSpace(TriSurface surface, const Pose& pose)
+{
+    for (Vec3& x : surface.points) x = pose.orientation*x + pose.position;
+    return surface;
+}
+
+void addStructureWalls(const Foam::dictionary& dict, BodiesInput& input)
+{
+    for (StructureDefinition& s : input.structures)
+    {
+        if (s.wall < 0) continue;
+        if (s.motion)
+            failIn(dict.subDict("structures").subDict(s.group), text("Structure ", s.group, " moves, and there are bodies: contact with moving structures "
+                "is not modelled.\n    Set 'contact off;' in it if the bodies do not reach it, or remove 'motion'."));
+        WallDefinition wall;
+        wall.name = s.solid.name;
+        wall.kind = WallDefinition::Kind::Surface;
+        wall.surface = inSpace(s.solid.shape->surface(s.facetSize), s.solid.pose);
+        wall.material = s.material;
+        s.wall = static_cast<int>(input.walls.size());
+        input.walls.push_back(std::move(wall));
+    }
+}
+
+Obstacles makeObstacles(const BodiesInput& input, const SceneFrame& frame)
+{
+    Obstacles obstacles;
+    obstacles.box = input.box;
+    if (frame.isPlanar) obstacles.checkBox[frame.planeAxis] = false;
+    for (const WallDefinition& wall : input.walls)
+    {
+        if (wall.kind == WallDefinition::Kind::Plane) obstacles.planes.push_back({wall.name, wall.point, wall.normal});
+        else obstacles.facets.push_back({wall.name, wall.surface});
+    }
+    std::shared_ptr<const SampledShape> sampled; // members of a group share their shape
+    for (const StructureDefinition& s : input.structures)
+    {
+        if (!sampled || &sampled->shape() != s.solid.shape.get()) sampled = sampleShape(s.solid.shape, thinnestExtent(*s.solid.shape, frame));
+        obstacles.shapes.push_back({"structure " + s.solid.name, sampled, s.solid.pose});
+    }
+    return obstacles;
+}
+
+void placeAll(std::vector<BodyGroup>& groups, const SceneFrame& frame, Obstacles& obstacles)
+{
+    for (auto& group : groups)
+    {
+        if (isRandom(group)) continue;
+        placeMembers(group, frame, obstacles);
+        checkMembers(group, obstacles);
+    }
+    for (auto& group : groups)
+        if (isRandom(group)) placeMembers(group, frame, obstacles);
+}
+
+SceneFrame makeFrame(const Foam::polyMesh& mesh, const SimplexMesh& simplexMesh, const Vec3& gravity)
+{
+    SceneFrame frame;
+    frame.isPlanar = simplexMesh.dim == 2;
+    frame.planeAxis = simplexMesh.axes[2];
+    frame.midPlane = simplexMesh.planeOffset;
+    frame.thickness = simplexMesh.thickness;
+    if (gravity.norm() > 0) frame.up = -gravity.normalized();
+    frame.stlFolder = mesh.time().path()/mesh.time().caseConstant()/"triSurface";
+    if (Foam::Pstream::parRun()) frame.stlFolder = mesh.time().globalPath()/mesh.time().caseConstant()/"triSurface";
+    return frame;
+}
+
+} // namespace
+
+BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh, const SimplexMesh& simplexMesh, const Halo& halo, const Vec3& gravity)
+{
+    checkKeywords(dict, {"materials", "contact", "wallMaterial", "wallPatches", "parameters", "structures", "bodies"});
+    BodiesInput input;
+    input.box = meshBounds(mesh);
+    MaterialTable table = readMaterials(dict);
+    input.materials = table.names;
+    input.laws = table.laws;
+    SceneFrame frame = makeFrame(mesh, simplexMesh, gravity);
+    frame.materials = input.materials;
+
+    readStructures(dict, frame, input);
+    std::vector<BodyGroup> groups = readGroups(dict, frame);
+    if (groups.empty())
+    {
+        for (StructureDefinition& s : input.structures) s.wall = -1;
+        return input;
+    }
+    const auto patches = wallPatches(dict, mesh);
+    const int wallMaterial = patches.empty() ? 0 : readMaterial(dict, "wallMaterial", input.materials);
+    for (const std::string& name : patches)
+        input.walls.push_back(makeMeshWall(mesh, mesh.boundaryMesh()[mesh.boundaryMesh().findPatchID(name)], halo, wallMaterial));
+    Obstacles obstacles = makeObstacles(input, frame); // the patches; structures by their shapes
+    addStructureWalls(dict, input);
+    placeAll(groups, frame, obstacles);
+    for (BodyGroup& group : groups)
+        for (BodyDefinition& body : group.members)
+        {
+            input.bodyGroups.push_back(group.prototype.name);
+            input.bodies.push_back(std::move(body));
+        }
+    return input;
+}
+
+BodiesInput readBodies(const Foam::polyMesh& mesh, const SimplexMesh& simplexMesh, const Halo& halo, const Vec3& gravity)
+{
+    const Foam::IOobject io("bodies", mesh.time().constant(), mesh.time(), Foam::IOobject::READ_IF_PRESENT, Foam::IOobject::NO_WRITE, false);
+    return readBodies(Foam::IOdictionary(io), mesh, simplexMesh, halo, gravity);
+}
+
+std::vector<Solid> makeSolids(const BodiesInput& input)
+{
+    std::vector<Solid> solids;
+    for (const auto& s : input.structures) solids.push_back(s.solid);
+    for (const auto& b : input.bodies)
+    {
+        Solid solid;
+        solid.name = b.name;
+        solid.kind = Solid::Kind::Free;
+        solid.shape = b.shape;
+        solid.pose = b.pose;
+        solid.motion = b.motion;
+        solids.push_back(std::move(solid));
+    }
+    return solids;
+}
+
+} // namespace flotsam

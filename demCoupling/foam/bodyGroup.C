@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "demCoupling/foam/bodyGroup.H"
+#include "demCoupling/foam/contactReader.H"
+#include "foam/dictionaryChecks.H"
+
+#include "List.H"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flotsam
+{
+
+namespace
+{
+
+const std::vector<std::string> bodyKeywords{"shape", "density", "mass", "material", "spheres", "position", "orientation", "velocity",
+    "angularVelocity", "releaseTime", "array", "poses", "random"};
+
+double readMass(const Foam::dictionary& dict, double volume)
+{
+    if (dict.found("mass") == dict.found("density"))
+        failIn(dict, "Give either 'density' [kg/m^3] or 'mass' [kg] of the body.");
+    return dict.found("mass") ? readNumber(dict, "mass", positive) : readNumber(dict, "density", positive)*volume;
+}
+
+void readSpheres(const Foam::dictionary& dict, BodyGroup& group)
+{
+    double radius = 0.25*group.thinnest, spacing = 0;
+    if (dict.found("spheres"))
+    {
+        const Foam::dictionary& spheres = dict.subDict("spheres");
+        checkKeywords(spheres, {"radius", "spacing"});
+        radius = readNumberOr(spheres, "radius", radius, {0, 0.5*group.thinnest*(1 + 1e-9), true},
+            text("The body's smallest extent is ", group.thinnest, " m: the spheres must fit into it."));
+        spacing = readNumberOr(spheres, "spacing", 0, {0, 4*radius, true}, "At most twice the diameter, or bodies pass between the spheres.");
+    }
+    group.prototype.spheres = surfaceSpheres(*group.prototype.shape, radius, spacing > 0 ? spacing : 2*radius);
+}
+
+/// A pose of the user's frame -> of the body frame; 2D: moved to the mid-plane.
+Pose bodyPose(const Pose& user, const BodyGroup& group, const SceneFrame& frame)
+{
+    Pose pose = compose(user, group.prototype.pose); // the prototype's pose is that of the body frame in the user's
+    if (!frame.isPlanar) return pose;
+    const auto box = PlacedShape{"", group.sampled, pose}.spaceBounds();
+    pose.position[frame.planeAxis] += frame.midPlane - 0.5*(box[0] + box[1])[frame.planeAxis];
+    return pose;
+}
+
+/// A 2D mesh computes per thickness: a body whose extent differs would have another mass than the water it displaces.
+void checkPlanar(const BodyGroup& group, const BodyDefinition& body, const SceneFrame& frame)
+{
+    if (!frame.isPlanar) return;
+    const auto box = PlacedShape{"", group.sampled, body.pose}.spaceBounds();
+    const double extent = (box[1] - box[0])[frame.planeAxis];
+    if (std::abs(extent - frame.thickness) > 1e-6*frame.thickness)
+        failIn(*group.dict, text("2D mesh: body ", body.name, " must reach through the mesh from front to back. Its extent along ", "xyz"[frame.planeAxis],
+            " is ", extent, " m, the mesh's ", frame.thickness, " m.\n    Use a box or cylinder of that length along ", "xyz"[frame.planeAxis], "."));
+}
+
+BodyDefinition member(const BodyGroup& group, const SceneFrame& frame, const std::string& suffix, const Pose& userPose, const Foam::dictionary& dict)
+{
+    BodyDefinition body = group.prototype;
+    body.name += suffix;
+    body.pose = bodyPose(userPose, group, frame);
+    body.motion = {readVec3Or(dict, "velocity", Vec3::Zero()), readVec3Or(dict, "angularVelocity", Vec3::Zero())};
+    body.releaseTime = readNumberOr(dict, "releaseTime", 0, notNegative);
+    checkPlanar(group, body, frame);
+    return body;
+}
+
+void placeList(BodyGroup& group, const SceneFrame& frame)
+{
+    const Foam::List<Foam::dictionary> poses(group.dict->lookup("poses"));
+    if (poses.empty()) failIn(*group.dict, "'poses' is empty: list at least one { position (..); }.");
+    forAll(poses, i)
+    {
+        Foam::dictionary dict(*group.dict); // what a pose does not give is the group's
+        checkKeywords(poses[i], {"position", "orientation", "velocity", "angularVelocity", "releaseTime"});
+        dict.merge(poses[i]);
+        group.members.push_back(member(group, frame, text(".", i), readPose(dict), dict));
+    }
+}
+
+void placeArray(BodyGroup& group, const SceneFrame& frame)
+{
+    bool isArray = false;
+    const Pose first = readPose(*group.dict);
+    int i = 0;
+    for (const Vec3& offset : readArray(*group.dict, isArray))
+    {
+        const Pose pose{first.position + offset, first.orientation};
+        group.members.push_back(member(group, frame, isArray ? text(".", i++) : "", pose, *group.dict));
+    }
+}
+
+struct RandomPlacement
+{
+    int count, tries;
+    std::array<Vec3, 2> box;
+    double minGap, from, interval;
+    std::string orientation;
+    std::uint64_t seed;
+};
+
+RandomPlacement readRandom(const Foam::dictionary& dict)
+{
+    checkKeywords(dict, {"count", "box", "seed", "minGap", "tries", "orientation", "release"});
+    RandomPlacement r;
+    dict.get<Foam::label>("count");
+    r.count = readCountOr(dict, "count", 1, {1, 1e6});
+    r.tries = readCountOr(dict, "tries", 1000, {1, 1e7});
+    r.seed = readCountOr(dict, "seed", 1, {0, 2147483647});
+    r.minGap = readNumberOr(dict, "minGap", 0, notNegative);
+    r.orientation = dict.getOrDefault<Foam::word>("orientation", "fixed");
+    const std::vector<std::string> known{"random", "uniformYaw", "fixed"};
+    if (std::find(known.begin(), known.end(), r.orientation) == known.end()) failUnknown(dict, "orientation", r.orientation, known);
+    const Foam::List<Foam::vector> corners(dict.lookup("box"));
+    if (corners.size() != 2) failIn(dict, "'box' must be two corners: ((xmin ymin zmin) (xmax ymax zmax)).");
+    for (int d = 0; d < 3; ++d)
+    {
+        if (corners[0][d] > corners[1][d]) failIn(dict, "'box': the first corner must hold the smaller coordinates.");
+        r.box[0][d] = corners[0][d];
+        r.box[1][d] = corners[1][d];
+    }
+    r.from = r.interval = 0;
+    if (!dict.found("release")) return r;
+    const Foam::dictionary& release = dict.subDict("release");
+    checkKeywords(release, {"from", "interval"});
+    r.from = readNumberOr(release, "from", 0, notNegative);
+    r.interval = readNumberOr(release, "interval", 0, notNegative);
+    return r;
+}
+
+Eigen::Quaterniond drawOrientation(const RandomPlacement& random, const Eigen::Quaterniond& base, const SceneFrame& frame, RandomNumbers& numbers)
+{
+    if (random.orientation == "fixed") return base;
+    if (frame.isPlanar || random.orientation == "uniformYaw")
+    {
+        const Vec3 axis = frame.isPlanar ? Vec3(Vec3::Unit(frame.planeAxis)) : frame.up;
+        return Eigen::Quaterniond(Eigen::AngleAxisd(2*M_PI*numbers.uniform(), axis))*base;
+    }
+    return numbers.rotation();
+}
+
+/// A pose whose body lies inside the box, centred anywhere it can be. False: the body, turned like this, is larger than the box.
+bool drawPose(const BodyGroup& group, const RandomPlacement& random, const Eigen::Quaterniond& base, const SceneFrame& frame, RandomNumbers& numbers, Pose& pose)
+{
+    pose = compose({Vec3::Zero(), drawOrientation(random, base, frame, numbers)}, group.prototype.pose);
+    const auto box = PlacedShape{"", group.sampled, pose}.spaceBounds();
+    for (int d = 0; d < 3; ++d)
+    {
+        const double lower = random.box[0][d] - box[0][d], upper = random.box[1][d] - box[1][d];
+        const double u = numbers.uniform();
+        const bool isFree = frame.isPlanar && d == frame.planeAxis;
+        if (!isFree && lower > upper + 1e-12) return false;
+        pose.position[d] += isFree ? frame.midPlane - 0.5*(box[0] + box[1])[d] : lower + u*(upper - lower);
+    }
+    return true;
+}
+
+void placeRandomly(BodyGroup& group, const SceneFrame& frame, Obstacles& obstacles)
+{
+    const Foam::dictionary& dict = group.dict->subDict("random");
+    const RandomPlacement random = readRandom(dict);
+    RandomNumbers numbers(random.seed);
+    const Eigen::Quaterniond base = readOrientation(*group.dict);
+    for (int i = 0; i < random.count; ++i)
+    {
+        BodyDefinition body = member(group, frame, text(".", i), {}, *group.dict);
+        bool isPlaced = false;
+        for (int k = 0; k < random.tries && !isPlaced; ++k)
+            isPlaced = drawPose(group, random, base, frame, numbers, body.pose)
+                && !findConflict({body.name, group.sampled, body.pose}, obstacles, random.minGap);
+        if (!isPlaced)
+            failIn(dict, text("Only ", i, " of ", random.count, " bodies '", group.prototype.name, "' found a place within ", random.tries,
+                " tries.\n    Enlarge 'box', lower 'count' or 'minGap', or allow more 'tries'."));
+        body.releaseTime = random.from + i*random.interval;
+        obstacles.shapes.push_back({"body " + body.name, group.sampled, body.pose});
+        group.members.push_back(std::move(body));
+    }
+}
+
+} // namespace
+
+std::vector<Vec3> readArray(const Foam::dictionary& dict, bool& isArray)
+{
+    isArray = dict.found("array");
+    if (!isArray) return {Vec3::Zero()};
+    const Foam::dictionary& array = dict.subDict("array");
+    checkKeywords(array, {"count", "spacing"});
+    const Vec3 count = readVec3(array, "count"), spacing = readVec3(array, "spacing");
+    for (int d = 0; d < 3; ++d)
+        if (count[d] < 1 || count[d] != std::floor(count[d]))
+            failIn(array, text("Entry 'count' has ", count[d], " along ", "xyz"[d], ": whole numbers, at least 1, for instance (1 7 1)."));
+    std::vector<Vec3> offsets;
+    for (int k = 0; k < count[2]; ++k)
+        for (int j = 0; j < count[1]; ++j)
+            for (int i = 0; i < count[0]; ++i) offsets.push_back(spacing.cwiseProduct(Vec3(i, j, k)));
+    return offsets;
+}
+
+double thinnestExtent(const Shape& shape, const SceneFrame& frame)
+{
+    const auto [lower, upper] = shape.bounds();
+    double thinnest = 1e300;
+    for (int d = 0; d < 3; ++d)
+        if (!frame.isPlanar || d != frame.planeAxis) thinnest = std::min(thinnest, upper[d] - lower[d]);
+    return thinnest;
+}
+
+std::shared_ptr<const SampledShape> sampleShape(std::shared_ptr<const Shape> shape, double thinnest)
+{
+    constexpr double largestNumber = 2e4;
+    const auto [lower, upper] = shape->bounds();
+    const Vec3 s = upper - lower;
+    const double area = 2*(s[0]*s[1] + s[1]*s[2] + s[2]*s[0]);
+    return std::make_shared<SampledShape>(std::move(shape), std::max(0.25*thinnest, std::sqrt(area/largestNumber)));
+}
+
+BodyGroup readBodyGroup(const std::string& name, const Foam::dictionary& dict, const SceneFrame& frame)
+{
+    checkKeywords(dict, bodyKeywords);
+    if (dict.found("array") + dict.found("poses") + dict.found("random") > 1)
+        failIn(dict, "Give only one of 'array', 'poses' and 'random'.");
+    BodyGroup group;
+    group.dict = &dict;
+    const PrincipalShape principal = toPrincipalFrame(readShape(dict.subDict("shape"), frame.stlFolder));
+    BodyDefinition& body = group.prototype;
+    body.name = name;
+    body.shape = principal.shape;
+    body.volume = principal.volume;
+    body.mass = readMass(dict, principal.volume);
+    body.principalInertia = principal.inertia*(body.mass/principal.volume);
+    body.pose = principal.inUserFrame;
+    body.material = readMaterial(dict, "material", frame.materials);
+    body.isPlanar = frame.isPlanar;
+    body.planeAxis = frame.planeAxis;
+    group.thinnest = thinnestExtent(*body.shape, frame);
+    group.sampled = sampleShape(body.shape, group.thinnest);
+    readSpheres(dict, group);
+    return group;
+}
+
+bool isRandom(const BodyGroup& group) { return group.dict->found("random"); }
+
+void placeMembers(BodyGroup& group, const SceneFrame& frame, Obstacles& obstacles)
+{
+    if (isRandom(group)) placeRandomly(group, frame, obstacles);
+    else if (group.dict->found("poses")) placeList(group, frame);
+    else placeArray(group, frame);
+}
+
+void checkMembers(const BodyGroup& group, Obstacles& obstacles)
+{
+    // bodies may touch, resting on each other or on a wall: a thousandth of the thickness is allowed
+    const double tolerance = 1e-3*group.thinnest;
+    for (const BodyDefinition& body : group.members)
+    {
+        const PlacedShape placed{body.name, group.sampled, body.pose};
+        if (const auto conflict = findConflict(placed, obstacles, -tolerance))
+            failIn(*group.dict, text("Body ", body.name, " reaches ", 1000*(conflict->overlap + tolerance), " mm into ", conflict->with,
+                " at the start.\n    Its centre is at (", body.pose.position.transpose(), "). Move it, or let 'random' find places."));
+        obstacles.shapes.push_back({"body " + body.name, group.sampled, body.pose});
+    }
+}
+
+} // namespace flotsam

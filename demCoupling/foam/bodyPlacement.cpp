@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "demCoupling/foam/bodyPlacement.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flotsam
+{
+
+namespace
+{
+
+bool boxesApart(const std::array<Vec3, 2>& a, const std::array<Vec3, 2>& b, double margin)
+{
+    for (int d = 0; d < 3; ++d)
+        if (a[0][d] > b[1][d] + margin || b[0][d] > a[1][d] + margin) return true;
+    return false;
+}
+
+/// Smallest distance of a's points in b, among those near b.
+double oneSidedGap(const PlacedShape& a, const PlacedShape& b, double farther)
+{
+    const auto box = b.spaceBounds();
+    const Eigen::Matrix3d rotation = a.pose.orientation.toRotationMatrix();
+    double smallest = farther;
+    for (const Vec3& p : a.shape->points())
+    {
+        const Vec3 x = rotation*p + a.pose.position;
+        const Vec3 outside = (box[0] - x).cwiseMax(x - box[1]).cwiseMax(0.0);
+        if (outside.norm() < smallest) smallest = std::min(smallest, b.distance(x));
+    }
+    return smallest;
+}
+
+/// Depth by which the body passes a plane or a side of the box (negative: free).
+double depthBehind(const PlacedShape& body, const Vec3& point, const Vec3& normal)
+{
+    const Vec3 local = body.pose.orientation.conjugate()*normal;
+    const double offset = normal.dot(body.pose.position - point);
+    double deepest = -1e30;
+    for (const Vec3& p : body.shape->points()) deepest = std::max(deepest, -(local.dot(p) + offset));
+    return deepest;
+}
+
+double depthInFacets(const PlacedShape& body, const TriSurface& surface, double spacing)
+{
+    const auto box = body.spaceBounds();
+    double deepest = -1e30;
+    TriSurface one;
+    one.triangles = {{0, 1, 2}};
+    for (const auto& t : surface.triangles)
+    {
+        one.points = {surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]};
+        const Vec3 lower = one.points[0].cwiseMin(one.points[1]).cwiseMin(one.points[2]);
+        const Vec3 upper = one.points[0].cwiseMax(one.points[1]).cwiseMax(one.points[2]);
+        if (boxesApart(box, {lower, upper}, spacing)) continue;
+        for (const Vec3& x : samplePoints(one, spacing)) deepest = std::max(deepest, -body.distance(x));
+    }
+    return deepest;
+}
+
+void keepWorse(std::optional<Conflict>& worst, const std::string& with, double overlap)
+{
+    constexpr double roundOff = 1e-9; // [m]: bodies that touch a wall exactly are welcome
+    if (overlap > roundOff && (!worst || overlap > worst->overlap)) worst = Conflict{with, overlap};
+}
+
+double shortestSide(const PlacedShape& body)
+{
+    const auto [lower, upper] = body.shape->shape().bounds();
+    return (upper - lower).minCoeff();
+}
+
+} // namespace
+
+std::vector<Vec3> samplePoints(const TriSurface& surface, double spacing)
+{
+    std::vector<Vec3> points = surface.points;
+    for (const auto& t : surface.triangles)
+    {
+        const Vec3 &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
+        const double longest = std::max({(b - a).norm(), (c - a).norm(), (c - b).norm()});
+        const int n = std::max(1, static_cast<int>(std::ceil(longest/spacing)));
+        for (int i = 0; i <= n; ++i)
+            for (int j = 0; i + j <= n; ++j)
+            {
+                const bool isCorner = (i == 0 && j == 0) || i == n || j == n;
+                if (!isCorner) points.push_back(a + (b - a)*(static_cast<double>(i)/n) + (c - a)*(static_cast<double>(j)/n));
+            }
+    }
+    return points;
+}
+
+SampledShape::SampledShape(std::shared_ptr<const Shape> shape, double spacing)
+:
+    shape_(std::move(shape)), points_(samplePoints(shape_->surface(spacing), spacing))
+{}
+
+std::array<Vec3, 2> PlacedShape::spaceBounds() const
+{
+    const auto [lower, upper] = shape->shape().bounds();
+    const Eigen::Matrix3d rotation = pose.orientation.toRotationMatrix();
+    const Vec3 centre = pose.position + rotation*(0.5*(lower + upper));
+    const Vec3 half = rotation.cwiseAbs()*(0.5*(upper - lower));
+    return {Vec3(centre - half), Vec3(centre + half)};
+}
+
+double PlacedShape::distance(const Vec3& x) const
+{
+    return shape->shape().distance(pose.orientation.conjugate()*(x - pose.position));
+}
+
+double gap(const PlacedShape& a, const PlacedShape& b, double farther)
+{
+    if (boxesApart(a.spaceBounds(), b.spaceBounds(), farther)) return farther;
+    return std::min(oneSidedGap(a, b, farther), oneSidedGap(b, a, farther));
+}
+
+std::optional<Conflict> findConflict(const PlacedShape& body, const Obstacles& obstacles, double minGap)
+{
+    std::optional<Conflict> worst;
+    for (int d = 0; d < 3; ++d)
+    {
+        if (!obstacles.checkBox[d]) continue;
+        // the sides of the box may be open boundaries: a body must be inside, but owes them no gap
+        keepWorse(worst, "the outside of the mesh", depthBehind(body, obstacles.box[0], Vec3::Unit(d)));
+        keepWorse(worst, "the outside of the mesh", depthBehind(body, obstacles.box[1], -Vec3::Unit(d)));
+    }
+    for (const auto& plane : obstacles.planes) keepWorse(worst, "wall " + plane.name, depthBehind(body, plane.point, plane.normal) + minGap);
+    for (const auto& wall : obstacles.facets)
+        keepWorse(worst, "wall " + wall.name, depthInFacets(body, wall.surface, 0.25*shortestSide(body)) + minGap);
+    for (const auto& other : obstacles.shapes)
+    {
+        const double farther = std::max(minGap, 0.0) + 1e-9;
+        keepWorse(worst, other.name, minGap - gap(body, other, farther));
+    }
+    return worst;
+}
+
+Eigen::Quaterniond RandomNumbers::rotation()
+{
+    // Shoemake, "Uniform random rotations", Graphics Gems III (1992)
+    const double u = uniform(), a = 2*M_PI*uniform(), b = 2*M_PI*uniform();
+    return Eigen::Quaterniond(std::sqrt(u)*std::cos(b), std::sqrt(1 - u)*std::sin(a), std::sqrt(1 - u)*std::cos(a), std::sqrt(u)*std::sin(b));
+}
+
+} // namespace flotsam

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Where bodies are at the start: overlaps of placed shapes, and random placement without overlaps.
+#pragma once
+
+#include "geometry/solid.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <random>
+#include <string>
+
+namespace flotsam
+{
+
+/// A shape with points on its surface, no further apart than `spacing`; overlaps are found by the points of one in the distance of the other.
+class SampledShape
+{
+public:
+    SampledShape(std::shared_ptr<const Shape> shape, double spacing);
+    const Shape& shape() const { return *shape_; }
+    const std::vector<Vec3>& points() const { return points_; }
+
+private:
+    std::shared_ptr<const Shape> shape_;
+    std::vector<Vec3> points_;  ///< in the shape's frame
+};
+
+/// Sample points of a triangulated surface, neighbours no further apart than `spacing` [m].
+std::vector<Vec3> samplePoints(const TriSurface& surface, double spacing);
+
+/// A sampled shape at a place. Box and points in space.
+struct PlacedShape
+{
+    std::string name;
+    std::shared_ptr<const SampledShape> shape;
+    Pose pose;
+
+    std::array<Vec3, 2> spaceBounds() const;
+    double distance(const Vec3& x) const;   ///< of a point in space [m]
+};
+
+/// Smallest gap between two placed shapes [m], negative: depth of the overlap. Larger than `farther` is returned as `farther`.
+double gap(const PlacedShape& a, const PlacedShape& b, double farther);
+
+/// What bodies must keep clear of. A plane's normal points to the allowed side.
+struct Obstacles
+{
+    std::vector<PlacedShape> shapes;
+    struct Plane { std::string name; Vec3 point, normal; };
+    std::vector<Plane> planes;
+    struct Facets { std::string name; TriSurface surface; };
+    std::vector<Facets> facets;             ///< walls that are not planes: no triangle may reach into a body
+    std::array<Vec3, 2> box{Vec3::Constant(-1e30), Vec3::Constant(1e30)}; ///< the mesh's bounding box
+    std::array<bool, 3> checkBox{true, true, true}; ///< per axis; off along the empty axis of a 2D mesh
+};
+
+/// The worst violation of `minGap`, in words of the obstacle: nothing when the place is free.
+struct Conflict { std::string with; double overlap; /* [m], minGap included */ };
+std::optional<Conflict> findConflict(const PlacedShape& body, const Obstacles& obstacles, double minGap);
+
+/// Reproducible numbers, the same with every compiler and on every rank.
+class RandomNumbers
+{
+public:
+    explicit RandomNumbers(std::uint64_t seed) : engine_(seed) {}
+    double uniform() { return static_cast<double>(engine_() >> 11)*0x1p-53; }   ///< [0,1)
+    Eigen::Quaterniond rotation();                                              ///< uniform over all rotations
+private:
+    std::mt19937_64 engine_;
+};
+
+} // namespace flotsam

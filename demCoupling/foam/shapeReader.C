@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "demCoupling/foam/shapeReader.H"
+#include "foam/dictionaryChecks.H"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace flotsam
+{
+
+namespace
+{
+
+Vec3 readSize(const Foam::dictionary& dict)
+{
+    const Vec3 size = readVec3(dict, "size");
+    for (int d = 0; d < 3; ++d) checkRange(dict, "size", size[d], positive);
+    return size;
+}
+
+void checkEnds(const Foam::dictionary& dict)
+{
+    if (readVec3(dict, "end1") == readVec3(dict, "end2")) failIn(dict, "end1 and end2 are the same point: the shape has no length.");
+}
+
+std::shared_ptr<const Shape> readParts(const Foam::dictionary& dict, const Foam::fileName& stlFolder)
+{
+    std::vector<std::shared_ptr<const Shape>> parts;
+    for (const Foam::entry& part : dict.subDict("parts"))
+    {
+        if (!part.isDict()) failIn(dict, text("parts: '", std::string(part.keyword()), "' must be a shape { type ..; .. }."));
+        parts.push_back(readShape(part.dict(), stlFolder));
+    }
+    if (parts.empty()) failIn(dict, "A union needs at least one shape in 'parts'.");
+    return makeUnion(parts);
+}
+
+Vec3 readDirection(const Foam::dictionary& dict, const char* keyword)
+{
+    const Vec3 v = readVec3(dict, keyword);
+    if (v.norm() < 1e-12) failIn(dict, text("Entry '", keyword, "' is (0 0 0): it must be a direction."));
+    return v.normalized();
+}
+
+PrescribedMotion linearMotion(const Foam::dictionary& dict, const Pose& start)
+{
+    checkKeywords(dict, {"type", "velocity"});
+    return [start, v = readVec3(dict, "velocity")](double time, Pose& pose, Motion& motion)
+    {
+        pose = start;
+        pose.position += v*time;
+        motion = {v, Vec3::Zero()};
+    };
+}
+
+PrescribedMotion oscillation(const Foam::dictionary& dict, const Pose& start)
+{
+    checkKeywords(dict, {"type", "direction", "amplitude", "period", "frequency", "phaseDeg"});
+    if (dict.found("period") == dict.found("frequency")) failIn(dict, "Give either 'period' [s] or 'frequency' [Hz].");
+    const double frequency = dict.found("period") ? 1/readNumber(dict, "period", positive) : readNumber(dict, "frequency", positive);
+    const Vec3 amplitude = readDirection(dict, "direction")*readNumber(dict, "amplitude", notNegative);
+    const double phase = readNumberOr(dict, "phaseDeg", 0, {-360, 360})*M_PI/180, omega = 2*M_PI*frequency;
+    return [start, amplitude, phase, omega](double time, Pose& pose, Motion& motion)
+    {
+        // starts from the given place whatever the phase
+        pose = start;
+        pose.position += amplitude*(std::sin(omega*time + phase) - std::sin(phase));
+        motion = {amplitude*(omega*std::cos(omega*time + phase)), Vec3::Zero()};
+    };
+}
+
+PrescribedMotion rotation(const Foam::dictionary& dict, const Pose& start)
+{
+    checkKeywords(dict, {"type", "origin", "axis", "rpm", "omega"});
+    if (dict.found("rpm") == dict.found("omega")) failIn(dict, "Give either 'rpm' or 'omega' [rad/s].");
+    const double omega = dict.found("rpm") ? readNumber(dict, "rpm", {-1e6, 1e6})*M_PI/30 : readNumber(dict, "omega", {-1e6, 1e6});
+    return [start, omega, origin = readVec3Or(dict, "origin", start.position), axis = readDirection(dict, "axis")](double time, Pose& pose, Motion& motion)
+    {
+        const Eigen::Quaterniond turned(Eigen::AngleAxisd(omega*time, axis));
+        const Vec3 arm = turned*(start.position - origin);
+        pose = {origin + arm, turned*start.orientation};
+        motion = {(omega*axis).cross(arm), omega*axis};
+    };
+}
+
+} // namespace
+
+Vec3 readVec3(const Foam::dictionary& dict, const char* keyword)
+{
+    const Foam::vector v = dict.get<Foam::vector>(keyword);
+    return Vec3(v.x(), v.y(), v.z());
+}
+
+Vec3 readVec3Or(const Foam::dictionary& dict, const char* keyword, const Vec3& byDefault)
+{
+    return dict.found(keyword) ? readVec3(dict, keyword) : byDefault;
+}
+
+std::shared_ptr<const Shape> readShape(const Foam::dictionary& dict, const Foam::fileName& stlFolder)
+{
+    const std::string type = dict.get<Foam::word>("type");
+    try
+    {
+        if (type == "box")
+        {
+            checkKeywords(dict, {"type", "size", "centre"});
+            return makeBox(readVec3Or(dict, "centre", Vec3::Zero()), readSize(dict));
+        }
+        if (type == "sphere")
+        {
+            checkKeywords(dict, {"type", "radius", "centre"});
+            return makeSphere(readVec3Or(dict, "centre", Vec3::Zero()), readNumber(dict, "radius", positive));
+        }
+        if (type == "cylinder" || type == "capsule")
+        {
+            checkKeywords(dict, {"type", "end1", "end2", "radius"});
+            checkEnds(dict);
+            const auto make = type == "cylinder" ? makeCylinder : makeCapsule;
+            return make(readVec3(dict, "end1"), readVec3(dict, "end2"), readNumber(dict, "radius", positive));
+        }
+        if (type == "stl")
+        {
+            checkKeywords(dict, {"type", "file", "scale"});
+            return makeStl(stlFolder/dict.get<Foam::fileName>("file"), readNumberOr(dict, "scale", 1, positive));
+        }
+        if (type == "union")
+        {
+            checkKeywords(dict, {"type", "parts"});
+            return readParts(dict, stlFolder);
+        }
+    }
+    catch (const std::runtime_error& error)
+    {
+        failIn(dict, error.what());
+    }
+    failUnknown(dict, "shape type", type, {"box", "sphere", "cylinder", "capsule", "stl", "union"});
+}
+
+Eigen::Quaterniond readOrientation(const Foam::dictionary& parent)
+{
+    if (!parent.found("orientation")) return Eigen::Quaterniond::Identity();
+    const Foam::dictionary& dict = parent.subDict("orientation");
+    checkKeywords(dict, {"axis", "angleDeg"});
+    const double angle = readNumber(dict, "angleDeg", {-360, 360})*M_PI/180;
+    return Eigen::Quaterniond(Eigen::AngleAxisd(angle, readDirection(dict, "axis")));
+}
+
+Pose readPose(const Foam::dictionary& dict)
+{
+    return {readVec3Or(dict, "position", Vec3::Zero()), readOrientation(dict)};
+}
+
+PrescribedMotion readMotion(const Foam::dictionary& parent, const Pose& start)
+{
+    if (!parent.found("motion")) return {};
+    const Foam::dictionary& dict = parent.subDict("motion");
+    const std::string type = dict.get<Foam::word>("type");
+    if (type == "linear") return linearMotion(dict, start);
+    if (type == "oscillating") return oscillation(dict, start);
+    if (type == "rotating") return rotation(dict, start);
+    failUnknown(dict, "motion type", type, {"linear", "oscillating", "rotating"});
+}
+
+PrincipalShape toPrincipalFrame(std::shared_ptr<const Shape> shape)
+{
+    const VolumeMoments moments = shape->moments();
+    PrincipalShape result;
+    result.volume = moments.volume;
+    result.inUserFrame.position = moments.centroid;
+
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
+    const Eigen::Matrix3d& inertia = moments.inertia;
+    const Eigen::Matrix3d off = inertia - Eigen::Matrix3d(inertia.diagonal().asDiagonal());
+    if (off.cwiseAbs().maxCoeff() > 1e-9*inertia.trace())
+    {
+        axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia).eigenvectors();
+        if (axes.determinant() < 0) axes.col(2) = -axes.col(2);
+    }
+    result.inUserFrame.orientation = Eigen::Quaterniond(axes).normalized();
+    result.inertia = (axes.transpose()*inertia*axes).diagonal();
+    if (axes.isIdentity() && moments.centroid.norm() < 1e-14*std::cbrt(moments.volume))
+    {
+        result.shape = std::move(shape); // spares every distance a transformation
+        return result;
+    }
+    const Eigen::Quaterniond back = result.inUserFrame.orientation.conjugate();
+    result.shape = makePlaced(std::move(shape), back, -(back*moments.centroid));
+    return result;
+}
+
+Pose compose(const Pose& outer, const Pose& inner)
+{
+    return {outer.position + outer.orientation*inner.position, (outer.orientation*inner.orientation).normalized()};
+}
+
+} // namespace flotsam

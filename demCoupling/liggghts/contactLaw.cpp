@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "demCoupling/liggghts/contactLaw.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace flotsam
+{
+
+namespace
+{
+
+constexpr double pi = 3.14159265358979323846;
+/// LIGGGHTS keeps tables of classes x classes; more distinct bodies than this share classes of nearly equal mass.
+constexpr int largestClassCount = 32;
+
+const ContactLaw& lawOf(const DemSetup& setup, int materialA, int materialB)
+{
+    return setup.laws.at(static_cast<size_t>(materialA * setup.nMaterials + materialB));
+}
+
+void checkLaws(const DemSetup& setup)
+{
+    const int n = setup.nMaterials;
+    if (n < 1 || setup.laws.size() != static_cast<size_t>(n * n))
+        throw DemError("contact laws: " + std::to_string(setup.laws.size()) + " given, nMaterials^2 = "
+                       + std::to_string(n * n) + " needed");
+    for (const ContactLaw& law : setup.laws)
+    {
+        if (!(law.stiffness > 0))
+            throw DemError("contact law: stiffness " + std::to_string(law.stiffness) + " N/m, must be > 0");
+        if (!(law.restitution >= 0.01 && law.restitution <= 1))
+            throw DemError("contact law: restitution " + std::to_string(law.restitution)
+                           + ", allowed 0.01 to 1 (a linear dashpot without attraction cannot reach 0)");
+        if (!(law.frictionAngleDeg >= 0 && law.frictionAngleDeg < 89))
+            throw DemError("contact law: friction angle " + std::to_string(law.frictionAngleDeg)
+                           + " degrees, allowed 0 to 89");
+    }
+}
+
+int checkedMaterial(int material, const DemSetup& setup, const std::string& owner)
+{
+    if (material < 0 || material >= setup.nMaterials)
+        throw DemError("'" + owner + "': contact material " + std::to_string(material) + ", allowed 0 to "
+                       + std::to_string(setup.nMaterials - 1));
+    return material;
+}
+
+/// Whether any law of this material shares its numbers over a face.
+bool sharesFace(const DemSetup& setup, int material)
+{
+    for (int other = 0; other < setup.nMaterials; ++other)
+        if (lawOf(setup, material, other).perBody)
+            return true;
+    return false;
+}
+
+using Key = std::tuple<int, long, int>;
+
+/// Masses closer than a factor of 1+`tolerance` fall into one class.
+std::vector<Key> bodyKeys(const DemSetup& setup, double tolerance)
+{
+    std::vector<Key> keys;
+    for (const BodyDefinition& body : setup.bodies)
+    {
+        const int faceCount = sharesFace(setup, body.material) ? flattestFaceCount(body) : 1;
+        keys.emplace_back(body.material, std::lround(std::log(body.mass) / std::log1p(tolerance)), faceCount);
+    }
+    return keys;
+}
+
+void addBodyClasses(const DemSetup& setup, ContactTable& table)
+{
+    std::vector<Key> keys;
+    for (double tolerance = 1e-6;; tolerance *= 4)
+    {
+        keys = bodyKeys(setup, tolerance);
+        std::map<Key, int> distinct;
+        for (const Key& key : keys)
+            distinct.emplace(key, 0);
+        if (static_cast<int>(distinct.size()) <= largestClassCount || tolerance > 1)
+            break;
+    }
+    std::map<Key, int> classOf;
+    for (size_t b = 0; b < keys.size(); ++b)
+    {
+        const auto [it, isNew] = classOf.emplace(keys[b], table.size());
+        if (isNew)
+            table.classes.push_back({false, setup.bodies[b].material, setup.bodies[b].mass, std::get<2>(keys[b])});
+        // mass of a shared class: the smallest, which gives the smaller damping and never a stiffer dashpot
+        ContactClass& c = table.classes[static_cast<size_t>(it->second)];
+        c.mass = std::min(c.mass, setup.bodies[b].mass);
+        table.classOfBody.push_back(it->second);
+    }
+}
+
+void addWallClasses(const DemSetup& setup, ContactTable& table)
+{
+    std::map<int, int> classOf;
+    for (const WallDefinition& wall : setup.walls)
+    {
+        const auto [it, isNew] = classOf.emplace(checkedMaterial(wall.material, setup, wall.name), table.size());
+        if (isNew)
+            table.classes.push_back({true, wall.material, 0, 1});
+        table.classOfWall.push_back(it->second);
+    }
+}
+
+/// Reduced mass of the pair; a wall does not move.
+double effectiveMass(const ContactClass& a, const ContactClass& b)
+{
+    if (a.isWall)
+        return b.mass;
+    return b.isWall ? a.mass : a.mass * b.mass / (a.mass + b.mass);
+}
+
+/// Spheres over which a flat contact of this pair is spread.
+int sharedCount(const ContactClass& a, const ContactClass& b)
+{
+    if (a.isWall)
+        return b.faceCount;
+    return b.isWall ? a.faceCount : std::min(a.faceCount, b.faceCount);
+}
+
+/// Largest eigenvalue [1/kg] of M^-1 sum(A^T A) over the spheres: the square of the highest frequency of the free
+/// body on springs of unit stiffness, in all three directions, at these points.
+double stiffestMode(const BodyDefinition& body, const std::vector<Vec3>& points)
+{
+    Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();
+    Eigen::Matrix<double, 6, 1> inverseRoot;
+    inverseRoot.head<3>().setConstant(1 / std::sqrt(body.mass));
+    inverseRoot.tail<3>() = body.principalInertia.cwiseSqrt().cwiseInverse();
+    for (const Vec3& r : points)
+    {
+        Eigen::Matrix<double, 3, 6> a;
+        a << 1, 0, 0, 0, r.z(), -r.y(), 0, 1, 0, -r.z(), 0, r.x(), 0, 0, 1, r.y(), -r.x(), 0;
+        stiffness += a.transpose() * a;
+    }
+    stiffness = (inverseRoot.asDiagonal() * stiffness * inverseRoot.asDiagonal()).eval();
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(stiffness, Eigen::EigenvaluesOnly)
+        .eigenvalues()
+        .maxCoeff();
+}
+
+/// Contact points of the spheres that touch the plane of normal +-axis, in the body frame.
+std::vector<Vec3> facePoints(const BodyDefinition& body, int axis, double sign)
+{
+    double top = -1e300, extent = 0;
+    for (const SurfaceSphere& s : body.spheres)
+    {
+        top = std::max(top, sign * s.centre[axis] + s.radius);
+        extent = std::max(extent, s.centre.norm() + s.radius);
+    }
+    std::vector<Vec3> points;
+    for (const SurfaceSphere& s : body.spheres)
+        if (sign * s.centre[axis] + s.radius > top - 1e-6 * std::max(1.0, extent))
+            points.push_back(s.centre + Vec3::Unit(axis) * (sign * s.radius));
+    return points;
+}
+
+/// A planar body never lands on a face of the plane it moves in.
+bool canLandOn(const BodyDefinition& body, int axis)
+{
+    return !body.isPlanar || std::abs((body.pose.orientation * Vec3::Unit(axis))[body.planeAxis]) < 0.5;
+}
+
+double stiffestFace(const BodyDefinition& body)
+{
+    double largest = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double sign : {-1.0, 1.0})
+            if (canLandOn(body, axis))
+                largest = std::max(largest, stiffestMode(body, facePoints(body, axis, sign)));
+    return largest;
+}
+
+} // namespace
+
+double restitutionOf(double beta)
+{
+    // The force k x + c v vanishes before the overlap does; from there on the body flies off. Integrating the
+    // oscillator up to that instant (Schwager and Poeschel, Granular Matter 9 (2007) 465) gives
+    if (beta <= 0)
+        return 1;
+    if (std::abs(beta - 1) < 1e-6)
+        return std::exp(-2.0);
+    if (beta < 1)
+    {
+        const double omega = std::sqrt(1 - beta * beta);
+        return std::exp(-beta / omega * (pi - std::atan2(2 * beta * omega, omega * omega - beta * beta)));
+    }
+    const double rate = std::sqrt(beta * beta - 1);
+    return std::exp(-beta / rate * std::log((beta + rate) * (beta + rate))); // (b+r)/(b-r) = (b+r)^2
+}
+
+double dampingRatioFor(double restitution)
+{
+    double low = 0, high = 10;
+    for (int i = 0; i < 200; ++i)
+    {
+        const double middle = 0.5 * (low + high);
+        (restitutionOf(middle) > restitution ? low : high) = middle;
+    }
+    return 0.5 * (low + high);
+}
+
+int flattestFaceCount(const BodyDefinition& body)
+{
+    size_t count = 1;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double sign : {-1.0, 1.0})
+            if (canLandOn(body, axis))
+                count = std::max(count, facePoints(body, axis, sign).size());
+    return static_cast<int>(count);
+}
+
+ContactTable makeContactTable(const DemSetup& setup)
+{
+    checkLaws(setup);
+    for (const BodyDefinition& body : setup.bodies)
+        checkedMaterial(body.material, setup, body.name);
+    ContactTable table;
+    addBodyClasses(setup, table);
+    addWallClasses(setup, table);
+    for (const ContactClass& a : table.classes)
+        for (const ContactClass& b : table.classes)
+        {
+            const ContactLaw& law = lawOf(setup, a.material, b.material);
+            const int n = law.perBody ? sharedCount(a, b) : 1;
+            const double mass = a.isWall && b.isWall ? 1 : effectiveMass(a, b); // walls never meet
+            table.stiffness.push_back(law.stiffness / n);
+            // one sphere: stiffness K/n needs sqrt(1/n) of the damping for the same ratio; n spheres at once: 1/n
+            const double share = law.flatRestitution ? n : std::sqrt(n);
+            table.damping.push_back(2 * dampingRatioFor(law.restitution) * std::sqrt(law.stiffness * mass) / share);
+            table.friction.push_back(std::tan(law.frictionAngleDeg * pi / 180));
+        }
+    return table;
+}
+
+double contactTimeStep(const DemSetup& setup, const ContactTable& table)
+{
+    // held between neighbours on several sides, the partner moving as well: the square of the highest frequency is
+    // about this many times that of the body landing on a fixed plane
+    constexpr double squeeze = 4;
+    constexpr double stepsPerContact = 40;
+    constexpr double stabilityMargin = 0.5;
+
+    double step = 1e300;
+    const int n = table.size();
+    for (size_t b = 0; b < setup.bodies.size(); ++b)
+    {
+        const double mode = stiffestFace(setup.bodies[b]);
+        for (int other = 0; other < n; ++other)
+        {
+            const size_t entry = static_cast<size_t>(table.classOfBody[b] * n + other);
+            const double k = table.stiffness[entry], c = table.damping[entry];
+            const double duration = pi / std::sqrt(k * mode);
+            const double omega2 = squeeze * k * mode, rate = squeeze * c * mode;
+            // velocity Verlet with the dashpot evaluated half a step late is stable for omega^2 dt^2 + 2 rate dt < 4
+            const double limit = (std::sqrt(rate * rate + 4 * omega2) - rate) / omega2;
+            step = std::min({step, duration / stepsPerContact, stabilityMargin * limit});
+        }
+    }
+    return step;
+}
+
+} // namespace flotsam

@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Bodies go in and are read through LIGGGHTS' C++ classes: its own commands place them at random and take mass and
+/// inertia from Monte-Carlo points.
+#include "demCoupling/liggghts/liggghtsParts.hpp"
+
+#include <mpi.h>
+
+#include "atom.h"
+#include "comm.h"
+#include "domain.h"
+#include "fix_multisphere.h"
+#include "lammps.h"
+#include "math_extra.h"
+#include "modify.h"
+#include "neighbor.h"
+#include "particleToInsert_multisphere.h"
+#include "update.h"
+
+namespace flotsam
+{
+
+namespace
+{
+
+/// set_xv() is protected; a derived class may name it.
+struct MultisphereAccess : LAMMPS_NS::FixMultisphere
+{
+    static void placeSpheres(LAMMPS_NS::FixMultisphere& bodies)
+    {
+        void (LAMMPS_NS::FixMultisphere::*method)() = &MultisphereAccess::set_xv;
+        (bodies.*method)();
+    }
+};
+
+void copy(const Vec3& from, double* to)
+{
+    for (int k = 0; k < 3; ++k)
+        to[k] = from[k];
+}
+
+void checkDefinition(const BodyDefinition& body)
+{
+    if (body.spheres.empty())
+        throw DemError("body '" + body.name + "' has no DEM spheres");
+    if (!(body.mass > 0) || !(body.principalInertia.minCoeff() > 0))
+        throw DemError("body '" + body.name + "': mass and principal inertia must be > 0");
+    for (const SurfaceSphere& s : body.spheres)
+        if (!(s.radius > 0) || !s.centre.allFinite())
+            throw DemError("body '" + body.name + "': a DEM sphere has radius " + std::to_string(s.radius));
+}
+
+int insertBody(LiggghtsModel& model, const BodyDefinition& body, int contactClass)
+{
+    checkDefinition(body);
+    const int n = static_cast<int>(body.spheres.size());
+    LAMMPS_NS::ParticleToInsertMultisphere particle(&model.instance.lammps(), n);
+    particle.groupbit = 1;
+    particle.atom_type = contactClass + 1;
+    particle.type_ms = 1;
+    particle.mass_ins = body.mass;
+    // LIGGGHTS' density and volume are informative only; their product must be the mass
+    particle.volume_ins = body.volume > 0 ? body.volume : body.mass;
+    particle.density_ins = body.mass / particle.volume_ins;
+    particle.r_bound_ins = 0;
+    for (int s = 0; s < n; ++s)
+    {
+        const SurfaceSphere& sphere = body.spheres[static_cast<size_t>(s)];
+        particle.radius_ins[s] = sphere.radius;
+        particle.volumeweight[s] = 1.0 / n;
+        copy(sphere.centre, particle.displace[s]);
+        particle.r_bound_ins = std::max(particle.r_bound_ins, sphere.centre.norm() + sphere.radius);
+    }
+    copy(body.principalInertia, particle.inertia);
+    copy(Vec3::Zero(), particle.xcm_to_xbound);
+    copy(Vec3::Zero(), particle.x_bound_ins);
+    copy(Vec3::UnitX(), particle.ex_space);
+    copy(Vec3::UnitY(), particle.ey_space);
+    copy(Vec3::UnitZ(), particle.ez_space);
+    double x[3], v[3], omega[3];
+    copy(body.pose.position, x);
+    copy(body.motion.velocity, v);
+    copy(body.motion.angularVelocity, omega);
+    const Eigen::Quaterniond q = body.pose.orientation.normalized();
+    double quaternion[4] = {q.w(), q.x(), q.y(), q.z()};
+    particle.set_x_v_omega(x, v, omega, quaternion);
+    return particle.insert();
+}
+
+/// Modify::setup() calls set_arrays() on every fix that is still "just created", which would wipe the link between
+/// spheres and bodies: the bodies would move and their spheres stay.
+void markFixesAsUsed(LAMMPS_NS::Modify& modify)
+{
+    for (int f = 0; f < modify.nfix; ++f)
+        if (modify.fix[f]->create_attribute)
+        {
+            modify.fix[f]->pre_set_arrays();
+            modify.fix[f]->just_created = 0;
+        }
+}
+
+} // namespace
+
+BodyArrays bodyArrays(const LiggghtsModel& model)
+{
+    LAMMPS_NS::Multisphere& data = model.multisphere->data();
+    const auto vector = [&](const char* name) {
+        double** values = data.extract_double_vector(name);
+        if (!values)
+            throw DemError(std::string("LIGGGHTS has no body property '") + name + "'");
+        return values;
+    };
+    BodyArrays b;
+    b.count = data.n_body();
+    b.xcm = vector("xcm");
+    b.vcm = vector("vcm");
+    b.fcm = vector("fcm");
+    b.torque = vector("torque");
+    b.drag = vector("dragforce_cm");
+    b.hdTorque = vector("hdtorque_cm");
+    b.angmom = vector("angmom");
+    b.omega = vector("omega");
+    b.ex = vector("ex_space");
+    b.ey = vector("ey_space");
+    b.ez = vector("ez_space");
+    b.inertia = vector("inertia");
+    b.quat = data.prop().getElementProperty<LAMMPS_NS::VectorContainer<double, 4>>("quat")->begin();
+    b.mass = data.extract_double_scalar("masstotal");
+    return b;
+}
+
+void insertBodies(LiggghtsModel& model, const DemSetup& setup)
+{
+    LAMMPS_NS::LAMMPS& dem = model.instance.lammps();
+    markFixesAsUsed(*dem.modify);
+    model.firstSphere.assign(1, 0);
+    model.instance.guarded([&] {
+        for (size_t b = 0; b < setup.bodies.size(); ++b)
+        {
+            insertBody(model, setup.bodies[b], model.contacts.classOfBody[b]);
+            model.firstSphere.push_back(model.firstSphere.back() + static_cast<int>(setup.bodies[b].spheres.size()));
+        }
+        LAMMPS_NS::Atom& atoms = *dem.atom;
+        atoms.tag_extend();
+        atoms.natoms = atoms.nlocal;
+        atoms.nghost = 0;
+        atoms.map_init();
+        atoms.map_set();
+        model.multisphere->add_body_finalize();
+    });
+    model.instance.command("run 0 post no");
+    checkBodies(model, setup);
+    model.bodies = bodyArrays(model);
+    for (int b = 0; b < model.bodies.count; ++b)
+        if (model.multisphere->data().tag(b) != b + 1)
+            throw DemError("LIGGGHTS has reordered the bodies");
+    // the quaternion made from the axes may have the opposite sign or differ in the last bit
+    for (size_t b = 0; b < setup.bodies.size(); ++b)
+    {
+        setPose(model, static_cast<int>(b), setup.bodies[b].pose);
+        setMotion(model, static_cast<int>(b), setup.bodies[b].motion);
+    }
+    placeSpheres(model);
+}
+
+void checkBodies(const LiggghtsModel& model, const DemSetup& setup)
+{
+    LAMMPS_NS::Multisphere& data = model.multisphere->data();
+    const int expected = static_cast<int>(setup.bodies.size());
+    if (data.n_body() != expected)
+    {
+        for (int b = 0; b < expected; ++b)
+            if (data.map(b + 1) < 0)
+                throw DemError("body '" + setup.bodies[static_cast<size_t>(b)].name + "' was lost by LIGGGHTS");
+        throw DemError("LIGGGHTS holds " + std::to_string(data.n_body()) + " bodies instead of "
+                       + std::to_string(expected));
+    }
+    const LAMMPS_NS::Atom& atoms = *model.instance.lammps().atom;
+    if (atoms.nlocal != model.firstSphere.back())
+        throw DemError("LIGGGHTS holds " + std::to_string(atoms.nlocal) + " spheres instead of "
+                       + std::to_string(model.firstSphere.back()));
+    for (int i = 0; i < atoms.nlocal; ++i)
+        if (atoms.tag[i] != i + 1 || model.multisphere->belongs_to(i) <= 0)
+            throw DemError("LIGGGHTS has lost the link between spheres and bodies");
+}
+
+void setMobility(LiggghtsModel& model, int body, const std::array<bool, 6>& isFree)
+{
+    bool force[3] = {isFree[0], isFree[1], isFree[2]}, torque[3] = {isFree[3], isFree[4], isFree[5]};
+    model.multisphere->data().set_fflag(body, force);
+    model.multisphere->data().set_tflag(body, torque);
+}
+
+void setPose(LiggghtsModel& model, int body, const Pose& pose)
+{
+    const BodyArrays& b = model.bodies;
+    const Eigen::Quaterniond q = pose.orientation.normalized();
+    copy(pose.position, b.xcm[body]);
+    b.quat[body][0] = q.w();
+    b.quat[body][1] = q.x();
+    b.quat[body][2] = q.y();
+    b.quat[body][3] = q.z();
+    MathExtra::q_to_exyz(b.quat[body], b.ex[body], b.ey[body], b.ez[body]);
+}
+
+void setMotion(LiggghtsModel& model, int body, const Motion& motion)
+{
+    double omega[3];
+    copy(motion.velocity, model.bodies.vcm[body]);
+    copy(motion.angularVelocity, omega);
+    model.multisphere->data().set_angmom_via_omega_body(body, omega); // the integrator owns angmom
+}
+
+void placeSpheres(LiggghtsModel& model) { MultisphereAccess::placeSpheres(*model.multisphere); }
+
+void rebuildNeighbours(LiggghtsModel& model)
+{
+    // what Verlet::run does when it rebuilds
+    LAMMPS_NS::LAMMPS& dem = model.instance.lammps();
+    model.instance.guarded([&] {
+        ++dem.update->ntimestep; // mesh walls recognise a changed grid of bins by the step number alone
+        dem.modify->pre_exchange();
+        dem.domain->pbc();
+        dem.domain->reset_box();
+        dem.comm->setup();
+        dem.neighbor->setup_bins();
+        dem.comm->exchange();
+        dem.comm->borders();
+        dem.modify->pre_neighbor();
+        dem.neighbor->build();
+        dem.modify->pre_force(0);
+    });
+}
+
+void requestRebuild(LiggghtsModel& model)
+{
+    model.multisphere->next_reneighbor = model.instance.lammps().update->ntimestep + 1;
+}
+
+} // namespace flotsam

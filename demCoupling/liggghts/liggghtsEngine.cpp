@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "demCoupling/liggghts/liggghtsEngine.hpp"
+
+#include "demCoupling/liggghts/liggghtsTally.hpp"
+#include "demCoupling/liggghts/reach.hpp"
+
+#include <cmath>
+
+namespace flotsam
+{
+
+namespace
+{
+
+Vec3 asVec(const double* v) { return Vec3(v[0], v[1], v[2]); }
+
+const DemSetup& checked(const DemSetup& setup)
+{
+    if (setup.bodies.empty())
+        throw DemError("the DEM engine needs at least one body");
+    if (!((setup.box[1] - setup.box[0]).minCoeff() > 0))
+        throw DemError("the DEM box is empty: its upper corner must lie above its lower corner");
+    if (!(setup.skin > 0) || !(setup.timeStep >= 0))
+        throw DemError("DEM: skin must be > 0 and timeStep >= 0 (0: chosen)");
+    return setup;
+}
+
+} // namespace
+
+struct LiggghtsEngine::Implementation
+{
+    explicit Implementation(const DemSetup& given)
+        : setup(checked(given)), reach(given.bodies, given.walls), isHeld(given.bodies.size(), 0),
+          loads(given.bodies.size())
+    {
+        model.contacts = makeContactTable(setup);
+        timeStep = setup.timeStep > 0 ? setup.timeStep : contactTimeStep(setup, model.contacts);
+        writeScript(model, setup, timeStep);
+        insertBodies(model, setup);
+        model.tally->sample();
+        for (int b = 0; b < model.bodies.count; ++b)
+            applyMobility(b);
+    }
+
+    void applyMobility(int body)
+    {
+        const BodyDefinition& definition = setup.bodies[static_cast<size_t>(body)];
+        std::array<bool, 6> isFree;
+        isFree.fill(!isHeld[static_cast<size_t>(body)]);
+        if (definition.isPlanar)
+            for (int axis = 0; axis < 3; ++axis)
+            {
+                const bool isNormal = axis == definition.planeAxis;
+                isFree[static_cast<size_t>(axis)] = isFree[static_cast<size_t>(axis)] && !isNormal;
+                isFree[static_cast<size_t>(3 + axis)] = isFree[static_cast<size_t>(3 + axis)] && isNormal;
+            }
+        setMobility(model, body, isFree);
+    }
+
+    Load contactNow(int body) const
+    {
+        const BodyArrays& b = model.bodies;
+        return {asVec(b.fcm[body]) - asVec(b.drag[body]), asVec(b.torque[body]) - asVec(b.hdTorque[body])};
+    }
+
+    BodyState stateOf(int body) const
+    {
+        const BodyArrays& b = model.bodies;
+        const double* q = b.quat[body];
+        BodyState state;
+        state.pose.position = asVec(b.xcm[body]);
+        state.pose.orientation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+        state.motion = {asVec(b.vcm[body]), asVec(b.omega[body])};
+        state.angularMomentum = asVec(b.angmom[body]);
+        return state;
+    }
+
+    bool isAnyTouched() const
+    {
+        for (int b = 0; b < model.bodies.count; ++b)
+        {
+            const Load contact = contactNow(b);
+            if (!contact.force.isZero(0) || !contact.moment.isZero(0))
+                return true;
+        }
+        return false;
+    }
+
+    void checkInside() const
+    {
+        const Vec3 margin = Vec3::Constant((setup.box[1] - setup.box[0]).norm());
+        for (int b = 0; b < model.bodies.count; ++b)
+        {
+            const Vec3 x = asVec(model.bodies.xcm[b]);
+            const std::string& name = setup.bodies[static_cast<size_t>(b)].name;
+            if (!x.allFinite() || !asVec(model.bodies.omega[b]).allFinite())
+                throw DemError("body '" + name + "': its motion is not a number (time step too large?)");
+            if (((setup.box[0] - margin - x).array() > 0).any() || ((x - setup.box[1] - margin).array() > 0).any())
+                throw DemError("body '" + name + "' has left the region of the DEM by more than its own diagonal");
+        }
+    }
+
+    DemSetup setup;
+    ReachCheck reach;
+    std::vector<char> isHeld;
+    std::vector<Load> loads;
+    LiggghtsModel model;
+    double timeStep = 0;
+    long subSteps = 0;
+};
+
+LiggghtsEngine::LiggghtsEngine(const DemSetup& setup) : impl_(std::make_unique<Implementation>(setup)) {}
+
+LiggghtsEngine::~LiggghtsEngine() = default;
+
+void LiggghtsEngine::setLoads(const std::vector<Load>& loads)
+{
+    const BodyArrays& b = impl_->model.bodies;
+    if (loads.size() != static_cast<size_t>(b.count))
+        throw DemError("setLoads: one load per body is needed");
+    impl_->loads = loads;
+    for (int i = 0; i < b.count; ++i)
+    {
+        // fcm and torque hold the last total: exchanging the load there makes the first half kick right
+        const Load contact = impl_->contactNow(i);
+        const Load& load = loads[static_cast<size_t>(i)];
+        for (int k = 0; k < 3; ++k)
+        {
+            b.drag[i][k] = load.force[k];
+            b.hdTorque[i][k] = load.moment[k];
+            b.fcm[i][k] = contact.force[k] + load.force[k];
+            b.torque[i][k] = contact.moment[k] + load.moment[k];
+        }
+    }
+}
+
+void LiggghtsEngine::advance(double duration, double largestStep)
+{
+    if (!(duration > 0) || !(largestStep > 0))
+        throw DemError("advance: duration and largest step must be > 0");
+    Implementation& d = *impl_;
+    const bool isFree = !d.isAnyTouched() && d.reach.isFree(states(), d.loads, d.isHeld, duration);
+    const double limit = isFree ? largestStep : std::min(d.timeStep, largestStep);
+    d.subSteps = std::max(1L, std::lround(std::ceil(duration / limit * (1 - 1e-12))));
+    setTimeStep(d.model, duration / static_cast<double>(d.subSteps));
+    requestRebuild(d.model);
+    d.model.tally->start();
+    run(d.model, d.subSteps);
+    d.model.tally->finish(d.subSteps);
+    d.model.instance.guarded([&] {
+        checkBodies(d.model, d.setup);
+        d.checkInside();
+    });
+}
+
+std::vector<BodyState> LiggghtsEngine::states() const
+{
+    std::vector<BodyState> result;
+    result.reserve(static_cast<size_t>(impl_->model.bodies.count));
+    for (int b = 0; b < impl_->model.bodies.count; ++b)
+        result.push_back(impl_->stateOf(b));
+    return result;
+}
+
+std::vector<Load> LiggghtsEngine::meanContactLoads() const { return impl_->model.tally->meanOnBodies(); }
+
+std::vector<Load> LiggghtsEngine::meanWallLoads() const { return impl_->model.tally->meanOnWalls(); }
+
+std::vector<Contact> LiggghtsEngine::contacts() const { return listContacts(impl_->model, impl_->setup); }
+
+bool LiggghtsEngine::hasContact() const { return impl_->model.tally->hasContact(); }
+
+long LiggghtsEngine::subSteps() const { return impl_->subSteps; }
+
+void LiggghtsEngine::setHeld(const std::vector<char>& isHeld)
+{
+    if (isHeld.size() != impl_->isHeld.size())
+        throw DemError("setHeld: one flag per body is needed");
+    for (size_t b = 0; b < isHeld.size(); ++b)
+    {
+        if ((isHeld[b] != 0) == (impl_->isHeld[b] != 0))
+            continue;
+        impl_->isHeld[b] = isHeld[b];
+        if (isHeld[b])
+            setMotion(impl_->model, static_cast<int>(b), {});
+        impl_->applyMobility(static_cast<int>(b));
+    }
+    placeSpheres(impl_->model);
+}
+
+void LiggghtsEngine::setStates(const std::vector<BodyState>& states)
+{
+    LiggghtsModel& model = impl_->model;
+    if (states.size() != static_cast<size_t>(model.bodies.count))
+        throw DemError("setStates: one state per body is needed");
+    for (int b = 0; b < model.bodies.count; ++b)
+    {
+        const BodyState& state = states[static_cast<size_t>(b)];
+        const BodyState old = impl_->stateOf(b);
+        const bool hasMoved = old.pose.position != state.pose.position
+                              || old.pose.orientation.coeffs() != state.pose.orientation.coeffs();
+        if (hasMoved)
+        {
+            setPose(model, b, state.pose);
+            // contact forces belong to the pose they were computed for
+            std::copy_n(model.bodies.drag[b], 3, model.bodies.fcm[b]);
+            std::copy_n(model.bodies.hdTorque[b], 3, model.bodies.torque[b]);
+        }
+        if (hasMoved || old.motion.velocity != state.motion.velocity
+            || old.motion.angularVelocity != state.motion.angularVelocity)
+            setMotion(model, b, state.motion);
+    }
+    placeSpheres(model);
+}
+
+DemState LiggghtsEngine::save() const { return saveState(impl_->model); }
+
+void LiggghtsEngine::restore(const DemState& state) { restoreState(impl_->model, state); }
+
+double LiggghtsEngine::timeStep() const { return impl_->timeStep; }
+
+} // namespace flotsam

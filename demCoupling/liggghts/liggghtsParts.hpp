@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Parts of the engine that see LIGGGHTS types; included by this folder's .cpp files only.
+#pragma once
+
+#include "demCoupling/liggghts/contactLaw.hpp"
+#include "demCoupling/liggghts/liggghtsInstance.hpp"
+
+namespace LAMMPS_NS
+{
+class FixMultisphere;
+class FixMeshSurface;
+class FixContactHistoryMesh;
+}
+
+namespace flotsam
+{
+
+class ContactTally;
+
+/// LIGGGHTS' arrays of the bodies, [body][component], space frame. Valid until a body is inserted.
+struct BodyArrays
+{
+    int count = 0;
+    double **xcm, **vcm, **fcm, **torque, **drag, **hdTorque, **angmom, **omega, **ex, **ey, **ez, **inertia, **quat;
+    double* mass;
+};
+
+/// What a wall of the set-up became in LIGGGHTS.
+struct WallHandle
+{
+    int axis = -1;              ///< of a primitive plane; -1: mesh
+    double coordinate = 0;      ///< of the plane on that axis [m]
+    LAMMPS_NS::Fix* force = nullptr;    ///< plane: per-sphere force on the sphere [N]
+    LAMMPS_NS::Fix* history = nullptr;  ///< plane: per-sphere tangential history
+    LAMMPS_NS::FixMeshSurface* mesh = nullptr;
+};
+
+/// Everything that lives inside one LIGGGHTS instance.
+struct LiggghtsModel
+{
+    LiggghtsModel() = default;
+    LiggghtsInstance instance;
+    LAMMPS_NS::FixMultisphere* multisphere = nullptr;
+    ContactTally* tally = nullptr;      ///< owned by LIGGGHTS' list of fixes
+    LAMMPS_NS::Fix* meshForce = nullptr; ///< per-sphere force of all mesh walls [N]; null without mesh walls
+    std::vector<WallHandle> walls;
+    BodyArrays bodies;
+    std::vector<int> firstSphere;       ///< per body, and the total: sphere of index s has LIGGGHTS tag s+1
+    ContactTable contacts;
+};
+
+// liggghtsScript.cpp
+void writeScript(LiggghtsModel& model, const DemSetup& setup, double timeStep);
+void setTimeStep(LiggghtsModel& model, double timeStep);
+void run(LiggghtsModel& model, long steps);
+
+// liggghtsWalls.cpp
+void addWalls(LiggghtsModel& model, const DemSetup& setup);
+std::string contactModelOptions();
+std::vector<std::string> words(const std::string& text);
+
+// liggghtsBodies.cpp
+void insertBodies(LiggghtsModel& model, const DemSetup& setup);
+void checkBodies(const LiggghtsModel& model, const DemSetup& setup);
+BodyArrays bodyArrays(const LiggghtsModel& model);
+/// Which components may change: mobility {force xyz, torque xyz}.
+void setMobility(LiggghtsModel& model, int body, const std::array<bool, 6>& isFree);
+void setPose(LiggghtsModel& model, int body, const Pose& pose);
+void setMotion(LiggghtsModel& model, int body, const Motion& motion);
+/// Positions and velocities of the spheres from those of their bodies.
+void placeSpheres(LiggghtsModel& model);
+/// Lists of neighbours for the present positions; the next sub-step does the same when `requestRebuild` was called.
+void rebuildNeighbours(LiggghtsModel& model);
+void requestRebuild(LiggghtsModel& model);
+
+// liggghtsHistory.cpp: tangential springs as plain doubles, keyed by sphere tags and triangle ids
+void appendHistories(const LiggghtsModel& model, std::vector<double>& data);
+/// Returns the position behind what was read.
+size_t readHistories(LiggghtsModel& model, const std::vector<double>& data, size_t position);
+
+// liggghtsState.cpp
+DemState saveState(const LiggghtsModel& model);
+void restoreState(LiggghtsModel& model, const DemState& state);
+
+// liggghtsContacts.cpp
+std::vector<Contact> listContacts(const LiggghtsModel& model, const DemSetup& setup);
+
+} // namespace flotsam

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Everything the future of the bodies depends on, as plain doubles.
+///
+/// Exactness rests on three things. The neighbour lists, whose order is the order of all sums, are rebuilt in the
+/// first sub-step of every advance, so that they depend on this state alone. Forces are part of the state: computing
+/// them anew would use full-step instead of half-step velocities. Springs are keyed by tags.
+#include "demCoupling/liggghts/liggghtsTally.hpp"
+
+#include "fix_multisphere.h"
+
+#include <cmath>
+
+namespace flotsam
+{
+
+namespace
+{
+
+constexpr double formatNumber = 1;
+constexpr size_t headerLength = 4;
+constexpr size_t bodyLength = 11 * 3 + 4;
+constexpr size_t wallLength = 6;
+
+std::array<double**, 11> vectorsOf(const BodyArrays& b)
+{
+    return {b.xcm, b.vcm, b.fcm, b.torque, b.drag, b.hdTorque, b.angmom, b.omega, b.ex, b.ey, b.ez};
+}
+
+void writeBodies(LiggghtsModel& model, const double* data)
+{
+    const auto vectors = vectorsOf(model.bodies);
+    for (int b = 0; b < model.bodies.count; ++b)
+    {
+        for (double** v : vectors)
+        {
+            std::copy_n(data, 3, v[b]);
+            data += 3;
+        }
+        std::copy_n(data, 4, model.bodies.quat[b]);
+        data += 4;
+    }
+}
+
+} // namespace
+
+DemState saveState(const LiggghtsModel& model)
+{
+    DemState state;
+    std::vector<double>& data = state.data;
+    data = {formatNumber, static_cast<double>(model.bodies.count), static_cast<double>(model.walls.size()),
+            static_cast<double>(model.firstSphere.back())};
+    const auto vectors = vectorsOf(model.bodies);
+    for (int b = 0; b < model.bodies.count; ++b)
+    {
+        for (double** v : vectors)
+            data.insert(data.end(), v[b], v[b] + 3);
+        data.insert(data.end(), model.bodies.quat[b], model.bodies.quat[b] + 4);
+    }
+    for (const Load& load : model.tally->wallsNow())
+    {
+        data.insert(data.end(), load.force.data(), load.force.data() + 3);
+        data.insert(data.end(), load.moment.data(), load.moment.data() + 3);
+    }
+    appendHistories(model, data);
+    return state;
+}
+
+void restoreState(LiggghtsModel& model, const DemState& state)
+{
+    const std::vector<double>& data = state.data;
+    const size_t bodyEnd = headerLength + static_cast<size_t>(model.bodies.count) * bodyLength;
+    const size_t wallEnd = bodyEnd + model.walls.size() * wallLength;
+    if (data.size() < wallEnd || data[0] != formatNumber || data[1] != model.bodies.count
+        || data[2] != static_cast<double>(model.walls.size()) || data[3] != model.firstSphere.back())
+        throw DemError("DEM state: it belongs to another case (number of bodies, walls or DEM spheres differs)");
+
+    writeBodies(model, data.data() + headerLength);
+    placeSpheres(model);
+    rebuildNeighbours(model);
+    writeBodies(model, data.data() + headerLength); // the rebuild has cleared the forces
+    for (size_t w = 0; w < model.walls.size(); ++w)
+    {
+        const double* load = data.data() + bodyEnd + w * wallLength;
+        model.tally->wallsNow()[w] = {Vec3(load[0], load[1], load[2]), Vec3(load[3], load[4], load[5])};
+    }
+    if (readHistories(model, data, wallEnd) != data.size())
+        throw DemError("DEM state: more data than this case needs");
+}
+
+} // namespace flotsam

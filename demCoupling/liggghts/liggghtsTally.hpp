@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Adds up contact loads in every sub-step, exactly as the integrator uses them.
+#pragma once
+
+#include "demCoupling/liggghts/liggghtsParts.hpp"
+
+#include <mpi.h>
+
+#include "fix.h"
+
+namespace flotsam
+{
+
+/// A fix of our own in LIGGGHTS' list. Velocity Verlet gives every force half before and half after its sub-step,
+/// so the time mean over a call is the trapezoid sum; it equals the change of momentum less the other loads.
+class ContactTally : public LAMMPS_NS::Fix
+{
+public:
+    ContactTally(LAMMPS_NS::LAMMPS* lammps, int count, char** arguments, LiggghtsModel& model)
+        : LAMMPS_NS::Fix(lammps, count, arguments), model_(model)
+    {
+        nevery = 1;
+    }
+    int setmask() override;
+    void end_of_step() override;
+
+    /// Puts a tally in place of a fix without effect: LIGGGHTS makes fixes only of styles it was compiled with.
+    static void install(LiggghtsModel& model);
+
+    /// Contact loads on bodies and walls at this instant (after set-up).
+    void sample();
+    void start();
+    void finish(long steps);
+
+    const std::vector<Load>& meanOnBodies() const { return bodyMean_; }
+    const std::vector<Load>& meanOnWalls() const { return wallMean_; }
+    bool hasContact() const { return hasContact_; }
+
+    /// Loads of the walls at this instant, moments about the origin of space: part of the state.
+    std::vector<Load>& wallsNow() { return wallNow_; }
+
+private:
+    bool readBodies();
+    void listTouched();
+    void readWalls();
+    Load planeLoad(const WallHandle& wall) const;
+    void add(double weight);
+
+    LiggghtsModel& model_;
+    std::vector<Load> bodyNow_, bodySum_, bodyMean_, wallNow_, wallSum_, wallMean_;
+    std::vector<int> touched_; ///< spheres with a contact force
+    bool hasContact_ = false;
+};
+
+} // namespace flotsam

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Walls: axis-aligned planes as primitives, everything else as triangles through a temporary STL file.
+#include "demCoupling/liggghts/liggghtsParts.hpp"
+
+#include <mpi.h>
+
+#include "fix_mesh_surface.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+
+namespace flotsam
+{
+
+namespace
+{
+
+const char* const axisNames[] = {"x", "y", "z"};
+
+int alignedAxis(const WallDefinition& wall)
+{
+    for (int axis = 0; axis < 3; ++axis)
+        if (std::abs(wall.normal[axis]) > (1 - 1e-14) * wall.normal.norm())
+            return axis;
+    return -1;
+}
+
+/// Removed from disk when it goes out of scope.
+class TemporaryFile
+{
+public:
+    TemporaryFile()
+    {
+        const char* folder = std::getenv("TMPDIR");
+        path_ = std::string(folder && *folder ? folder : "/tmp") + "/flotsam-wall-XXXXXX.stl"; // LIGGGHTS goes by the ending
+        const int descriptor = mkstemps(path_.data(), 4);
+        if (descriptor < 0)
+            throw DemError("cannot write a temporary file for a wall: " + path_ + " (set TMPDIR to a folder with space)");
+        file_ = fdopen(descriptor, "w");
+    }
+    ~TemporaryFile()
+    {
+        close();
+        std::remove(path_.c_str());
+    }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    FILE* file() { return file_; }
+    const std::string& path() const { return path_; }
+    void close()
+    {
+        if (file_ && std::fclose(file_) != 0)
+            std::fprintf(stderr, "cannot write %s\n", path_.c_str());
+        file_ = nullptr;
+    }
+
+private:
+    std::string path_;
+    FILE* file_ = nullptr;
+};
+
+void writeStl(TemporaryFile& stl, const TriSurface& surface)
+{
+    double extent = 0;
+    for (const Vec3& p : surface.points)
+        extent = std::max(extent, (p - surface.points.front()).norm());
+    std::fprintf(stl.file(), "solid wall\n");
+    for (const std::array<int, 3>& t : surface.triangles)
+    {
+        const Vec3 &a = surface.points[static_cast<size_t>(t[0])], &b = surface.points[static_cast<size_t>(t[1])],
+                   &c = surface.points[static_cast<size_t>(t[2])];
+        const Vec3 normal = (b - a).cross(c - a);
+        if (normal.norm() < 1e-12 * extent * extent)
+            continue; // a sliver without area: LIGGGHTS refuses it and nothing can touch it
+        const Vec3 n = normal.normalized();
+        std::fprintf(stl.file(), "facet normal %.17g %.17g %.17g\nouter loop\n", n.x(), n.y(), n.z());
+        for (const Vec3& p : {a, b, c})
+            std::fprintf(stl.file(), "vertex %.17g %.17g %.17g\n", p.x(), p.y(), p.z());
+        std::fprintf(stl.file(), "endloop\nendfacet\n");
+    }
+    std::fprintf(stl.file(), "endsolid wall\n");
+    stl.close();
+}
+
+/// Two triangles that cover the set-up box and more.
+TriSurface largeSquare(const WallDefinition& wall, const DemSetup& setup)
+{
+    const Vec3 normal = wall.normal.normalized();
+    const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
+    const Vec3 middle = 0.5 * (setup.box[0] + setup.box[1]);
+    const Vec3 foot = middle - normal * normal.dot(middle - wall.point);
+    const double half = (setup.box[1] - setup.box[0]).norm();
+    TriSurface square;
+    square.points = {foot - half * u - half * v, foot + half * u - half * v, foot + half * u + half * v,
+                     foot - half * u + half * v};
+    square.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return square;
+}
+
+WallHandle addPlane(LiggghtsModel& model, const WallDefinition& wall, int axis, int index)
+{
+    WallHandle handle;
+    handle.axis = axis;
+    handle.coordinate = wall.point[axis];
+    const std::string id = "plane" + std::to_string(index);
+    const int type = model.contacts.classOfWall[static_cast<size_t>(index)] + 1;
+    model.instance.addFix(words(id + " all wall/gran model hooke/stiffness tangential history primitive type "
+                                + std::to_string(type) + " " + axisNames[axis] + "plane "
+                                + exactText(handle.coordinate) + " store_force yes " + contactModelOptions()));
+    handle.force = model.instance.findFix("force_" + id);
+    handle.history = model.instance.findFix("history_" + id);
+    if (!handle.force || !handle.history)
+        throw DemError("wall '" + wall.name + "': this LIGGGHTS names its wall data differently from version 3.8");
+    return handle;
+}
+
+void addMesh(LiggghtsModel& model, const WallDefinition& wall, const TriSurface& surface, int index)
+{
+    if (surface.triangles.empty())
+        throw DemError("wall '" + wall.name + "': its surface has no triangles");
+    TemporaryFile stl;
+    writeStl(stl, surface);
+    const int type = model.contacts.classOfWall[static_cast<size_t>(index)] + 1;
+    std::vector<std::string> arguments =
+        words("mesh" + std::to_string(index) + " all mesh/surface/stress file FILE type " + std::to_string(type)
+              + " curvature_tolerant yes stress on");
+    arguments[4] = stl.path();
+    try
+    {
+        model.instance.addFix(arguments);
+    }
+    catch (const DemError& e)
+    {
+        throw DemError("wall '" + wall.name + "': its surface is not accepted: " + e.what());
+    }
+}
+
+} // namespace
+
+std::string contactModelOptions() { return "absolute_damping on tangential_damping on limitForce on"; }
+
+std::vector<std::string> words(const std::string& text)
+{
+    std::istringstream stream(text);
+    std::vector<std::string> result;
+    for (std::string word; stream >> word;)
+        result.push_back(word);
+    return result;
+}
+
+void addWalls(LiggghtsModel& model, const DemSetup& setup)
+{
+    std::string meshes;
+    int meshCount = 0;
+    for (size_t w = 0; w < setup.walls.size(); ++w)
+    {
+        const WallDefinition& wall = setup.walls[w];
+        const int index = static_cast<int>(w);
+        const int axis = wall.kind == WallDefinition::Kind::Plane ? alignedAxis(wall) : -1;
+        if (axis >= 0)
+        {
+            model.walls.push_back(addPlane(model, wall, axis, index));
+            continue;
+        }
+        addMesh(model, wall, wall.kind == WallDefinition::Kind::Plane ? largeSquare(wall, setup) : wall.surface, index);
+        model.walls.emplace_back();
+        meshes += " mesh" + std::to_string(index);
+        ++meshCount;
+    }
+    if (meshCount == 0)
+        return;
+    // LIGGGHTS allows one wall fix of mesh type; it may hold many meshes
+    model.instance.addFix(words("meshes all wall/gran model hooke/stiffness tangential history mesh n_meshes "
+                                + std::to_string(meshCount) + " meshes" + meshes + " store_force yes "
+                                + contactModelOptions()));
+    model.meshForce = model.instance.findFix("force_meshes");
+    for (size_t w = 0; w < setup.walls.size(); ++w)
+        if (model.walls[w].axis < 0)
+            model.walls[w].mesh =
+                static_cast<LAMMPS_NS::FixMeshSurface*>(model.instance.findFix("mesh" + std::to_string(w)));
+}
+
+} // namespace flotsam

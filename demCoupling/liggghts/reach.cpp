@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "demCoupling/liggghts/reach.hpp"
+
+namespace flotsam
+{
+
+namespace
+{
+
+bool boxesMeet(const Vec3& lowerA, const Vec3& upperA, const Vec3& lowerB, const Vec3& upperB)
+{
+    return (lowerA.array() <= upperB.array()).all() && (lowerB.array() <= upperA.array()).all();
+}
+
+template <class Box>
+bool meets(const SurfaceSphere& s, const Box& box)
+{
+    const Vec3 outside = (box.lower - s.centre).cwiseMax(s.centre - box.upper).cwiseMax(0.0);
+    return outside.squaredNorm() <= s.radius * s.radius;
+}
+
+struct TriangleBox { Vec3 lower, upper; };
+
+} // namespace
+
+ReachCheck::ReachCheck(const std::vector<BodyDefinition>& bodies, const std::vector<WallDefinition>& walls)
+    : bodies_(bodies), walls_(walls), moving_(bodies.size())
+{
+    for (size_t b = 0; b < bodies.size(); ++b)
+        moving_[b].spheres.resize(bodies[b].spheres.size());
+}
+
+void ReachCheck::move(size_t body, const BodyState& state, const Load& load, bool isHeld, double duration)
+{
+    const BodyDefinition& definition = bodies_[body];
+    double shift = 0, turn = 0;
+    if (!isHeld)
+    {
+        const double half = 0.5 * duration * duration, smallest = definition.principalInertia.minCoeff();
+        shift = state.motion.velocity.norm() * duration + load.force.norm() / definition.mass * half;
+        // a tumbling body never spins faster than all its angular momentum about the axis of least inertia
+        turn = (state.angularMomentum.norm() * duration + load.moment.norm() * half) / smallest;
+    }
+    Moving& m = moving_[body];
+    m.lower.setConstant(1e300);
+    m.upper.setConstant(-1e300);
+    const Eigen::Matrix3d rotation = state.pose.orientation.toRotationMatrix();
+    for (size_t s = 0; s < m.spheres.size(); ++s)
+    {
+        const SurfaceSphere& local = definition.spheres[s];
+        SurfaceSphere& sphere = m.spheres[s];
+        sphere.centre = state.pose.position + rotation * local.centre;
+        sphere.radius = local.radius + shift + std::min(turn, 2.0) * local.centre.norm(); // at most the diameter
+        m.lower = m.lower.cwiseMin(sphere.centre - Vec3::Constant(sphere.radius));
+        m.upper = m.upper.cwiseMax(sphere.centre + Vec3::Constant(sphere.radius));
+    }
+}
+
+bool ReachCheck::canTouch(const Moving& a, const Moving& b) const
+{
+    if (!boxesMeet(a.lower, a.upper, b.lower, b.upper))
+        return false;
+    for (const SurfaceSphere& s : a.spheres)
+    {
+        if (!meets(s, b))
+            continue;
+        for (const SurfaceSphere& t : b.spheres)
+        {
+            const double reach = s.radius + t.radius;
+            if ((s.centre - t.centre).squaredNorm() <= reach * reach)
+                return true;
+        }
+    }
+    return false;
+}
+
+bool ReachCheck::canTouch(const Moving& a, const WallDefinition& wall) const
+{
+    if (wall.kind == WallDefinition::Kind::Plane)
+    {
+        const Vec3 normal = wall.normal.normalized();
+        for (const SurfaceSphere& s : a.spheres)
+            if (std::abs(normal.dot(s.centre - wall.point)) <= s.radius)
+                return true;
+        return false;
+    }
+    for (const std::array<int, 3>& t : wall.surface.triangles)
+    {
+        TriangleBox box {Vec3::Constant(1e300), Vec3::Constant(-1e300)};
+        for (const int corner : t)
+        {
+            box.lower = box.lower.cwiseMin(wall.surface.points[static_cast<size_t>(corner)]);
+            box.upper = box.upper.cwiseMax(wall.surface.points[static_cast<size_t>(corner)]);
+        }
+        if (!boxesMeet(a.lower, a.upper, box.lower, box.upper))
+            continue;
+        for (const SurfaceSphere& s : a.spheres)
+            if (meets(s, box))
+                return true;
+    }
+    return false;
+}
+
+bool ReachCheck::isFree(const std::vector<BodyState>& states, const std::vector<Load>& loads,
+                        const std::vector<char>& isHeld, double duration)
+{
+    const size_t n = bodies_.size();
+    for (size_t b = 0; b < n; ++b)
+        move(b, states[b], loads[b], isHeld[b] != 0, duration);
+    for (size_t b = 0; b < n; ++b)
+    {
+        for (size_t c = b + 1; c < n; ++c)
+            if (!(isHeld[b] && isHeld[c]) && canTouch(moving_[b], moving_[c]))
+                return false;
+        if (isHeld[b])
+            continue;
+        for (const WallDefinition& wall : walls_)
+            if (canTouch(moving_[b], wall))
+                return false;
+    }
+    return true;
+}
+
+} // namespace flotsam

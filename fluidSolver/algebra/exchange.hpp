@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Set-up communication: lists of any length to any rank. Not for the time loop (Halo is).
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace flotsam
+{
+
+inline MPI_Datatype mpiTypeOf(const int*) { return MPI_INT; }
+inline MPI_Datatype mpiTypeOf(const double*) { return MPI_DOUBLE; }
+inline MPI_Datatype mpiTypeOf(const std::int64_t*) { return MPI_INT64_T; }
+
+/// Collective. outgoing[r] goes to rank r; the result's entry r came from rank r.
+template <class T>
+std::vector<std::vector<T>> exchangeLists(const std::vector<std::vector<T>>& outgoing, MPI_Comm comm)
+{
+    constexpr int tag = 720;
+    const int size = static_cast<int>(outgoing.size());
+    std::vector<int> sendCount(size), receiveCount(size);
+    for (int r = 0; r < size; ++r)
+    {
+        sendCount[r] = static_cast<int>(outgoing[r].size());
+    }
+    MPI_Alltoall(sendCount.data(), 1, MPI_INT, receiveCount.data(), 1, MPI_INT, comm);
+
+    std::vector<std::vector<T>> incoming(size);
+    std::vector<MPI_Request> requests;
+    for (int r = 0; r < size; ++r)
+    {
+        incoming[r].resize(receiveCount[r]);
+        if (receiveCount[r] > 0)
+        {
+            requests.emplace_back();
+            MPI_Irecv(incoming[r].data(), receiveCount[r], mpiTypeOf(incoming[r].data()), r, tag, comm, &requests.back());
+        }
+    }
+    for (int r = 0; r < size; ++r)
+    {
+        if (sendCount[r] > 0)
+        {
+            requests.emplace_back();
+            MPI_Isend(outgoing[r].data(), sendCount[r], mpiTypeOf(outgoing[r].data()), r, tag, comm, &requests.back());
+        }
+    }
+    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+    return incoming;
+}
+
+} // namespace flotsam

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The linear system of one step: fluid unknowns (u, p) at the nodes and velocities of the solids.
+///
+/// Fluid block: blocks of (dim+1)^2, row-major, on the node graph (owned rows, complete). The couplings that leave the
+/// graph or are of low rank are kept apart: ghost penalty faces (rank one each) and the solids' rows and columns.
+#pragma once
+
+#include "core/nodeGraph.hpp"
+
+#include <vector>
+
+namespace flotsam
+{
+
+/// Ghost penalty of one face: velocity c_u [dn u_k][dn w_k], pressure c_p [dn p/rho][dn q/rho]; rank one per component.
+struct GhostTerm
+{
+    int node[5];            ///< dim+2 local nodes: the face's, then the two opposite ones
+    double jumpVelocity[5]; ///< [dn N_j] [1/m]
+    double jumpPressure[5]; ///< [dn N_j/rho]
+    double velocityFactor;  ///< c_u times face area
+    double pressureFactor;
+    double pressureSource;  ///< [f.n/rho]: the hydrostatic part, not penalised
+};
+
+/// Coupling of one solid with the nodes around its surface. nDof = 3 (2D: Vx Vy omega) or 6 (V, omega), space frame.
+struct SolidCoupling
+{
+    std::vector<int> node;      ///< local nodes touched by the solid's cut elements
+    std::vector<double> column; ///< node.size()*(dim+1)*nDof: rows of the node, columns of the solid
+    std::vector<double> row;    ///< node.size()*nDof*(dim+1): rows of the solid; only this rank's own elements
+    std::vector<double> block;  ///< nDof*nDof solid-solid; only this rank's own elements
+    bool isFree = false;
+    std::vector<double> inertia; ///< nDof*nDof mass matrix / dt (free solids; same on every rank)
+    std::vector<double> rhs;     ///< nDof: history, weight, contact (free solids; same on every rank)
+};
+
+/// Directions in which the velocity of a node is prescribed.
+struct NodeConstraint
+{
+    int node;
+    int nDirections;
+    double direction[3][3]; ///< orthonormal; nDirections == dim: the whole vector
+};
+
+struct FlowSystem
+{
+    int dim = 3, nDof = 6;
+    std::vector<double> matrix;     ///< graph.column.size()*(dim+1)^2
+    std::vector<double> schur;      ///< graph.column.size(): scalar pressure Schur approximation
+    std::vector<double> pressureMass; ///< nOwned: sum of V/(mu + tau_c), the viscous part of the Schur complement
+    std::vector<double> rhs;        ///< nOwned*(dim+1)
+    std::vector<GhostTerm> ghosts;
+    std::vector<SolidCoupling> solids;
+    std::vector<NodeConstraint> constraints;    ///< owned nodes
+    std::vector<char> isPressureFixed;          ///< nNodes
+    std::vector<char> isActive;                 ///< nNodes: has a fluid element
+    std::vector<double> dualVolume;             ///< nOwned: fluid part [m^dim]
+    bool hasPressureLevel = false;              ///< some node has its pressure prescribed (all ranks)
+    bool geometryChanged = true;                ///< the cover is not the one of the last solve
+};
+
+} // namespace flotsam

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Boundary conditions of the fluid as the kernels see them: plain kinds and nodal values, no dictionaries.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace flotsam
+{
+
+/// Values of one patch at one time, per node of the patch (`BoundaryPatch::nodes`).
+struct PatchValues
+{
+    std::vector<double> velocity;   ///< nodes*dim, for Velocity::Fixed [m/s]
+    std::vector<double> pressure;   ///< nodes, for Pressure::Fixed and Total: full pressure (total: p0) [Pa]
+    std::vector<double> alpha;      ///< nodes, phase field of fluid that enters
+};
+
+/// State a condition may depend on (flow rates over the wetted part, variable heights). Local nodes, halo up to date.
+struct BoundaryState
+{
+    double time;
+    const double* velocity; ///< nNodes*dim
+    const double* alpha;    ///< nNodes
+};
+
+struct BoundaryPatch
+{
+    enum class Velocity { Fixed, Slip, Open };          ///< Open: no constraint on the velocity
+    /// Natural with Open is interFoam's zeroGradient/zeroGradient outlet: the pressure there is the unknown's own value, the
+    /// boundary term int p v.n stays in the equations (without it the outlet would silently be held at p = 0).
+    /// Total: p = p0 - rho |u|^2/2 where the fluid enters.
+    enum class Pressure { Natural, Fixed, Total };
+    enum class Phase { Natural, Inflow };               ///< Inflow: PatchValues::alpha where the fluid enters, else natural
+
+    std::string name;
+    bool isNoSlipWall = false;      ///< velocity zero; wins over other patches at shared nodes (flow-rate inlets rely on it)
+    int meshPatch = -1;             ///< index into SimplexMesh::patches
+    Velocity velocity = Velocity::Fixed;
+    Pressure pressure = Pressure::Natural;
+    Phase phase = Phase::Natural;
+    std::vector<int> nodes;         ///< local nodes of the patch (owned and halo), ascending
+
+    /// Fills the values for a time. Collective (may sum over ranks).
+    std::function<void(const BoundaryState&, PatchValues&)> evaluate;
+};
+
+} // namespace flotsam

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Every number a user may set, with its default. foam/controlsReader reads, checks and prints them from one table.
+#pragma once
+
+#include <array>
+#include <string>
+
+namespace flotsam
+{
+
+/// constant/transportProperties and constant/g
+struct FluidProperties
+{
+    bool isTwoPhase = true;
+    double rhoLiquid = 1000, rhoGas = 1;    ///< [kg/m^3]
+    double muLiquid = 1e-3, muGas = 1.8e-5; ///< dynamic viscosity [Pa s]
+    double sigma = 0;                       ///< surface tension [N/m]; must be 0 for now
+    std::array<double, 3> gravity{0, 0, 0}; ///< space frame [m/s^2]
+};
+
+/// system/fvSolution, sub-dictionary flotsam
+struct NumericsControls
+{
+    // time
+    int timeOrder = 2;              ///< 1: BDF1, 2: BDF2
+    // stabilisation (paper eq 5)
+    double tauContFactor = 1;       ///< multiplies tau_cont
+    bool tauContWithTimeStep = true; ///< tau_cont = rho h^2/(12 tau) with the time step inside tau (twophase), else rho(nu + |a|h/2)
+    // embedded boundary
+    bool nitsche = true;            ///< false: the paper's pure penalty
+    double nitscheGamma = 10;       ///< non-symmetric Nitsche: coefficient of mu/h
+    double penalty = 1e3;           ///< pure penalty pbar [Pa s/m] (paper eq 5), used when nitsche is false
+    double ghostVelocity = 0.05, ghostConvection = 0.01, ghostPressure = 0.05;
+    // phase field
+    bool dualCellTransport = true;  ///< false: the paper's SUPG form (eq 9)
+    double interfaceWidth = 0.35;   ///< delta over local element length
+    double mobility = 0;            ///< gamma over |u|max of the optional model flux
+    double transportCourant = 0.9;  ///< limit of dt sum(outflow)/V of a sub-step
+    double densityClip = 0.002;     ///< c of balance.md 1.1d
+    bool balancedGravity = true;    ///< false: rho_e g
+    int gravityLayers = 6;          ///< rings over which interface planes are handed on
+    // linear solver
+    double tolerance = 1e-5;        ///< relative residual of the scaled system
+    int maxIterations = 200;
+    int restart = 30;
+    // coupling
+    double contactTolerance = 1e-2; ///< relative change of the contact impulse that ends the repeats
+    int maxContactRepeats = 8;
+    double demTimeStep = 0;         ///< [s]; 0: chosen from stiffness and masses
+};
+
+/// system/controlDict
+struct TimeControls
+{
+    bool adjustTimeStep = true;
+    double deltaT = 1e-3;           ///< [s]
+    double maxCo = 0.5;             ///< advective Courant number |u| dt/h
+    double maxBodyCo = 0.5;         ///< of the bodies' surfaces
+    double maxDeltaT = 1e30;        ///< [s]
+    double minDeltaT = 1e-9;        ///< a step that would need less ends the run
+};
+
+} // namespace flotsam

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Nodal unknowns and their older time levels. Copying this is copying the state of the fluid.
+#pragma once
+
+#include <vector>
+
+namespace flotsam
+{
+
+struct FlowState
+{
+    double time = 0;
+    long step = 0;                      ///< steps done
+    double dt = 0, dtOld = 0;           ///< last two steps [s]; 0 before they exist
+    std::vector<double> u, uOld;        ///< nNodes*dim velocity at t^n, t^(n-1) [m/s]
+    std::vector<double> p;              ///< nNodes pressure at t^n [Pa] (full pressure)
+    std::vector<double> alpha, alphaOld, alphaOlder; ///< nNodes phase field, 1 liquid
+    std::vector<double> fineScale, fineScaleOld; ///< nElements*dim: u' = -tau r_m of the last two solves [m/s]
+};
+
+} // namespace flotsam

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The volume terms of the momentum and continuity equations on one simplex or its fluid part; one function per term.
+///
+/// Weak form (paper eq 5, momentum convection skew-symmetric, see docs/numerics.md):
+///   (w, rho du/dt) + 1/2 [(w, rho a.grad u) - (rho a.grad w, u)] + 1/2 (drho/dt w, u)          inertia, convection
+/// + (eps(w), 2 mu eps(u)) - (div w, p) + (q, div u) + (div w, tau_c div u)                      stress, continuity
+/// + sum_e (tau a.grad w + tau grad q/rho, rho (du/dt + a.grad u) + grad p - f) = (w, f)         SUPG, PSPG
+/// P1: gradients are constant; all integrals are exact from V, int N_a and int N_a N_b of the fluid part.
+#pragma once
+
+#include "core/timeScheme.hpp"
+
+namespace flotsam
+{
+
+template<int D>
+struct ElementData
+{
+    static constexpr int N = D + 1;     ///< nodes
+    static constexpr int B = D + 1;     ///< unknowns of a node: u, p
+
+    double volume;                      ///< fluid part [m^D]
+    double first[N];                    ///< int N_a
+    double second[N*N];                 ///< int N_a N_b
+    const double* gradN;                ///< N*D
+    double rho, mu, rhoRate;            ///< density, viscosity, drho/dt: means over the fluid part
+    double tau, tauCont;                ///< [s], [Pa s]
+    double advection[D];                ///< a: mean over the fluid part [m/s]
+    double force[D];                    ///< f [N/m^3]
+    double history[N*D];                ///< nodal -(c1 u^n + c2 u^(n-1)) [m/s^2]
+    double ag[N];                       ///< a . grad N_a, from prepare()
+
+    void prepare()
+    {
+        for (int a = 0; a < N; ++a)
+        {
+            ag[a] = 0;
+            for (int d = 0; d < D; ++d) ag[a] += advection[d]*gradN[a*D + d];
+        }
+    }
+};
+
+/// Element matrix: block (a,b) at [(a*N + b)*B*B], row-major; right-hand side B per node.
+template<int D>
+struct ElementMatrix
+{
+    static constexpr int N = D + 1, B = D + 1;
+    double block[N*N*B*B];
+    double rhs[N*B];
+};
+
+/// Inertia, skew-symmetric convection, its SUPG part: the same scalar on every velocity component.
+template<int D>
+inline double scalarMomentum(const ElementData<D>& e, const TimeScheme& t, int a, int b)
+{
+    const double mass = e.second[a*(D + 1) + b];
+    return e.rho*t.c0*mass + 0.5*e.rhoRate*mass
+         + 0.5*e.rho*(e.ag[b]*e.first[a] - e.ag[a]*e.first[b])
+         + e.tau*e.rho*e.ag[a]*(t.c0*e.first[b] + e.volume*e.ag[b]);
+}
+
+/// Adds every volume term of node pair (a,b) into its block.
+template<int D>
+inline void addPair(const ElementData<D>& e, const TimeScheme& t, int a, int b, double* m)
+{
+    constexpr int B = D + 1;
+    const double* ga = e.gradN + a*D;
+    const double* gb = e.gradN + b*D;
+    double gg = 0;
+    for (int d = 0; d < D; ++d) gg += ga[d]*gb[d];
+    const double viscous = e.mu*e.volume, gradDiv = e.tauCont*e.volume;
+    const double diagonal = scalarMomentum(e, t, a, b) + viscous*gg;
+    const double pspg = e.tau*(t.c0*e.first[b] + e.volume*e.ag[b]);
+    for (int k = 0; k < D; ++k)
+    {
+        for (int l = 0; l < D; ++l) m[k*B + l] = viscous*ga[l]*gb[k] + gradDiv*ga[k]*gb[l];
+        m[k*B + k] += diagonal;
+        m[k*B + D] = -ga[k]*e.first[b] + e.tau*e.ag[a]*e.volume*gb[k];  // pressure gradient, SUPG
+        m[D*B + k] = e.first[a]*gb[k] + ga[k]*pspg;                     // continuity, PSPG
+    }
+    m[D*B + D] = e.tau/e.rho*e.volume*gg;                               // PSPG
+}
+
+/// Right-hand side of node a: history and body force with their SUPG and PSPG parts.
+template<int D>
+inline void addSource(const ElementData<D>& e, int a, double* rhs)
+{
+    constexpr int N = D + 1;
+    const double* ga = e.gradN + a*D;
+    for (int k = 0; k < D; ++k)
+    {
+        double mass = 0, mean = 0;
+        for (int b = 0; b < N; ++b)
+        {
+            mass += e.second[a*N + b]*e.history[b*D + k];
+            mean += e.first[b]*e.history[b*D + k];
+        }
+        rhs[k] = e.rho*(mass + e.tau*e.ag[a]*mean) + (e.first[a] + e.tau*e.ag[a]*e.volume)*e.force[k];
+        rhs[D] = (k == 0 ? 0 : rhs[D]) + e.tau*ga[k]*(mean + e.volume*e.force[k]/e.rho);
+    }
+}
+
+} // namespace flotsam

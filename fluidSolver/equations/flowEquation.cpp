@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "equations/flowEquation.hpp"
+
+#include "equations/elementLoader.hpp"
+#include "equations/materials.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flotsam
+{
+
+FlowEquation::FlowEquation(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const FluidProperties& fluid,
+    const NumericsControls& controls, const std::vector<BoundaryPatch>& patches)
+:   mesh_(mesh), graph_(graph), halo_(halo), fluid_(fluid), controls_(controls), patches_(patches)
+{
+    const int dim = mesh.dim, B = dim + 1;
+    system_.dim = dim;
+    system_.nDof = dim == 2 ? 3 : 6;
+    system_.matrix.resize(graph.column.size()*B*B);
+    system_.schur.resize(graph.column.size());
+    system_.pressureMass.resize(mesh.nOwned);
+    system_.dualVolume.resize(mesh.nOwned);
+    system_.rhs.resize(std::size_t(mesh.nOwned)*B);
+    for (auto* v : {&rho_, &mu_, &rhoRate_}) v->resize(mesh.nNodes);
+    advection_.resize(std::size_t(mesh.nNodes)*dim);
+    history_.resize(std::size_t(mesh.nNodes)*dim);
+    buildConstraints();
+}
+
+void FlowEquation::setMaterials()
+{
+    const FlowState& s = *step_.state;
+    const TimeScheme& t = step_.time;
+    for (int i = 0; i < mesh_.nNodes; ++i)
+    {
+        const double alpha = fluid_.isTwoPhase ? s.alpha[i] : 1;
+        rho_[i] = density(fluid_, controls_, alpha);
+        mu_[i] = viscosity(fluid_, controls_, alpha);
+        rhoRate_[i] = fluid_.isTwoPhase
+            ? t.c0*rho_[i] + t.c1*density(fluid_, controls_, s.alphaOld[i]) + t.c2*density(fluid_, controls_, s.alphaOlder[i])
+            : 0;
+    }
+    const std::size_t n = std::size_t(mesh_.nNodes)*mesh_.dim;
+    for (std::size_t k = 0; k < n; ++k)
+    {
+        advection_[k] = (1 + t.extrapolation)*s.u[k] - t.extrapolation*s.uOld[k];
+        history_[k] = -(t.c1*s.u[k] + t.c2*s.uOld[k]);
+    }
+}
+
+void FlowEquation::assemble(const FlowStepData& step)
+{
+    step_ = step;
+    setMaterials();
+    std::fill(system_.matrix.begin(), system_.matrix.end(), 0.0);
+    std::fill(system_.schur.begin(), system_.schur.end(), 0.0);
+    std::fill(system_.rhs.begin(), system_.rhs.end(), 0.0);
+    std::fill(system_.pressureMass.begin(), system_.pressureMass.end(), 0.0);
+    std::fill(system_.dualVolume.begin(), system_.dualVolume.end(), 0.0);
+    if (step_.cover) system_.isActive = step_.cover->isActiveNode;
+    else system_.isActive.assign(mesh_.nNodes, 1);
+    if (mesh_.dim == 2)
+    {
+        assembleElements<2>();
+        assembleOpenBoundaries<2>();
+        assembleWalls<2>();
+        assembleGhosts<2>();
+    }
+    else
+    {
+        assembleElements<3>();
+        assembleOpenBoundaries<3>();
+        assembleWalls<3>();
+        assembleGhosts<3>();
+    }
+}
+
+template<int D>
+void FlowEquation::assembleElements()
+{
+    constexpr int N = D + 1, B = D + 1;
+    const TimeScheme& t = step_.time;
+    ElementData<D> data;
+    double block[B*B], source[B];
+    for (int e = 0; e < mesh_.nInnerElements; ++e)
+    {
+        if (!loadElement<D>(e, data)) continue;
+        const int* nodes = &mesh_.elements[std::size_t(e)*N];
+        const int* slot = &graph_.slot[std::size_t(e)*N*N];
+        const double schurFactor = data.volume*(data.tau + 1/t.c0)/data.rho;
+        for (int a = 0; a < N; ++a)
+        {
+            if (nodes[a] >= mesh_.nOwned) continue;
+            const double* ga = data.gradN + a*D;
+            for (int b = 0; b < N; ++b)
+            {
+                const double* gb = data.gradN + b*D;
+                double* m = &system_.matrix[std::size_t(slot[a*N + b])*B*B];
+                addPair(data, t, a, b, block);
+                for (int k = 0; k < B*B; ++k) m[k] += block[k];
+                double gg = 0;
+                for (int d = 0; d < D; ++d) gg += ga[d]*gb[d];
+                system_.schur[slot[a*N + b]] += schurFactor*gg;
+            }
+            addSource(data, a, source);
+            double* rhs = &system_.rhs[std::size_t(nodes[a])*B];
+            for (int k = 0; k < B; ++k) rhs[k] += source[k];
+            system_.dualVolume[nodes[a]] += data.first[a];
+            system_.pressureMass[nodes[a]] += data.first[a]/(data.mu + data.tauCont);
+        }
+    }
+}
+
+template<int D>
+void FlowEquation::fineScaleT(const std::vector<double>& x, std::vector<double>& result) const
+{
+    constexpr int N = D + 1, B = D + 1;
+    ElementData<D> data;
+    for (int e = 0; e < mesh_.nElements; ++e)
+    {
+        double* r = &result[std::size_t(e)*D];
+        if (!loadElement<D>(e, data))
+        {
+            std::fill(r, r + D, 0.0);
+            continue;
+        }
+        const int* nodes = &mesh_.elements[std::size_t(e)*N];
+        for (int d = 0; d < D; ++d)
+        {
+            double rate = 0, gradP = 0;
+            for (int a = 0; a < N; ++a)
+            {
+                const double u = x[std::size_t(nodes[a])*B + d];
+                const double mean = data.first[a]/data.volume;
+                rate += (step_.time.c0*u - data.history[a*D + d])*mean + data.ag[a]*u;
+                gradP += data.gradN[a*D + d]*x[std::size_t(nodes[a])*B + D];
+            }
+            r[d] = -data.tau*(rate + (gradP - data.force[d])/data.rho);
+        }
+    }
+}
+
+void FlowEquation::fineScale(const std::vector<double>& x, std::vector<double>& result) const
+{
+    result.resize(std::size_t(mesh_.nElements)*mesh_.dim);
+    if (mesh_.dim == 2) fineScaleT<2>(x, result); else fineScaleT<3>(x, result);
+}
+
+} // namespace flotsam

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Assembly of one step's linear system from the state, the geometry and the boundary values.
+#pragma once
+
+#include "algebra/flowSystem.hpp"
+#include "equations/elementLoader.hpp"
+
+namespace flotsam
+{
+
+/// A free solid's part of the system: its inertia and what acts on it besides the fluid. Space frame.
+struct FreeBody
+{
+    double mass = 0;                                    ///< [kg]
+    Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre of mass, in the predicted orientation [kg m^2]
+    Vec3 velocity = Vec3::Zero();                       ///< V^n [m/s]
+    Vec3 angularMomentum = Vec3::Zero();                ///< L^n [kg m^2/s]
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();   ///< weight and mean contact load over the step
+};
+
+/// +1 when (axes[0], axes[1], axes[2]) of a 2D mesh is a right-handed order of x, y, z, else -1.
+double planeOrientation(const SimplexMesh& mesh);
+
+/// Motion of a solid as the system's degrees of freedom q (3 in 2D: in-plane velocity, rotation about the empty axis; 6 in 3D).
+void solidVelocity(const SimplexMesh& mesh, const Solid& solid, double* q);
+
+class FlowEquation
+{
+public:
+    FlowEquation(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const FluidProperties& fluid,
+        const NumericsControls& controls, const std::vector<BoundaryPatch>& patches);
+
+    /// Fills system(): matrix, right-hand side, ghost faces, solids (inertia and rhs of free solids: setFreeBodies()).
+    void assemble(const FlowStepData& step);
+
+    /// Inertia and right-hand side of the free solids (BDF1 rows, so that a DEM step with the same constant load ends at
+    /// the solved velocity). bodies: one per solid of kind Free, in the order of the solids.
+    void setFreeBodies(const std::vector<FreeBody>& bodies, double dt);
+
+    /// Writes prescribed velocities and pressures into x (nNodes*(dim+1)).
+    void applyConstraints(const std::vector<PatchValues>& values, std::vector<double>& x) const;
+
+    /// u' = -tau (du/dt + a.grad u + (grad p - f)/rho) of the solution x, per element (nElements*dim).
+    void fineScale(const std::vector<double>& x, std::vector<double>& result) const;
+
+    /// Volume fluxes of the pressure ghost terms between node pairs, for the conservative transport:
+    /// row contributions r_i of face nodes as (r_i - r_j)/(dim+2).
+    struct PairFlux { int a, b; double flux; };
+    void ghostFluxes(const std::vector<double>& x, std::vector<PairFlux>& result) const;
+
+    FlowSystem& system() { return system_; }
+    const FlowSystem& system() const { return system_; }
+
+    const std::vector<double>& rho() const { return rho_; }
+
+private:
+    template<int D> void assembleElements();
+    template<int D> void assembleWalls();
+    template<int D> void assembleGhosts();
+    template<int D> void assembleOpenBoundaries();
+    template<int D> void fineScaleT(const std::vector<double>&, std::vector<double>&) const;
+    template<int D, class Element> bool loadElement(int e, Element& data) const
+    {
+        return loadElementData<D>(e, mesh_, step_, controls_, rho_, mu_, rhoRate_, advection_, history_, data);
+    }
+    void setMaterials();
+    void buildConstraints();
+
+    const SimplexMesh& mesh_;
+    const NodeGraph& graph_;
+    const Halo& halo_;
+    const FluidProperties& fluid_;
+    const NumericsControls& controls_;
+    const std::vector<BoundaryPatch>& patches_;
+
+    FlowStepData step_;
+    FlowSystem system_;
+    std::vector<double> rho_, mu_, rhoRate_;    // nNodes
+    std::vector<double> advection_, history_;   // nNodes*dim
+    std::vector<NodeConstraint> constraints_;   // all local nodes; directions from the slip patches
+    std::vector<char> isInflow_;                // nNodes: fluid enters through an open patch
+};
+
+} // namespace flotsam

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What the assembly of one time step reads.
+#pragma once
+
+#include "core/boundary.hpp"
+#include "core/controls.hpp"
+#include "core/flowState.hpp"
+#include "core/timeScheme.hpp"
+#include "geometry/cover.hpp"
+
+namespace flotsam
+{
+
+/// Everything a step's assembly reads.
+struct FlowStepData
+{
+    TimeScheme time;
+    const FlowState* state = nullptr;           ///< t^n, t^(n-1); alpha already at t^(n+1)
+    const Cover* cover = nullptr;               ///< null: no solids
+    const std::vector<Solid>* solids = nullptr; ///< pose and motion at t^(n+1); free: predicted
+    const std::vector<PatchValues>* patchValues = nullptr; ///< at t^(n+1)
+    const std::vector<double>* elementForce = nullptr;      ///< nElements*dim: gravity [N/m^3]
+};
+
+} // namespace flotsam

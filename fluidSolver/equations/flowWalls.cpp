@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Surfaces of solids inside the mesh: wall terms with the solids' rows and columns, ghost penalty.
+#include "equations/elementLoader.hpp"
+#include "equations/flowEquation.hpp"
+#include "equations/wallTerms.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flotsam
+{
+
+namespace
+{
+
+/// The facets of one solid in one cut element, integrated.
+template<int D>
+struct FacetGroup
+{
+    int element, solid, cut;
+    double normal[D], area;
+    double m1[D + 1], m2[(D + 1)*(D + 1)]; ///< int N_a, int N_a N_b
+};
+
+template<int D>
+std::vector<FacetGroup<D>> groupFacets(const Cover& cover, int nInner, const std::vector<char>& isOwnedElement)
+{
+    constexpr int N = D + 1;
+    std::vector<FacetGroup<D>> groups;
+    for (std::size_t c = 0; c < cover.cuts.size(); ++c)
+    {
+        const CutElement& cut = cover.cuts[c];
+        if (cut.element >= nInner && !isOwnedElement[cut.element]) continue;
+        const std::size_t first = groups.size();
+        for (int f = cut.facetStart; f < cut.facetEnd; ++f)
+        {
+            const CutFacet& facet = cover.facets[f];
+            std::size_t g = first;
+            while (g < groups.size() && groups[g].solid != facet.solid) ++g;
+            if (g == groups.size())
+            {
+                groups.push_back({});
+                groups.back().element = cut.element;
+                groups.back().solid = facet.solid;
+                groups.back().cut = int(c);
+                std::copy(facet.normal, facet.normal + D, groups.back().normal);
+            }
+            FacetGroup<D>& group = groups[g];
+            group.area += facet.area;
+            for (int q = 0; q < facet.nPoints; ++q)
+                for (int a = 0; a < N; ++a)
+                {
+                    const double wa = facet.weight[q]*facet.shape[q][a];
+                    group.m1[a] += wa;
+                    for (int b = 0; b < N; ++b) group.m2[a*N + b] += wa*facet.shape[q][b];
+                }
+        }
+    }
+    std::stable_sort(groups.begin(), groups.end(), [](const auto& l, const auto& r) { return l.solid < r.solid; });
+    return groups;
+}
+
+/// Rigid velocity of node a per unit of the solid's degrees of freedom: transport[k*nDof + d].
+template<int D>
+void rigidTransport(const SimplexMesh& mesh, const Solid& solid, int node, double* transport)
+{
+    constexpr int nDof = D == 2 ? 3 : 6;
+    const std::array<double, 3> x = mesh.spacePoint(node);
+    double r[3];
+    for (int d = 0; d < 3; ++d) r[d] = x[d] - solid.pose.position[d];
+    std::fill(transport, transport + D*nDof, 0.0);
+    for (int k = 0; k < D; ++k) transport[k*nDof + k] = 1;
+    if (D == 2)
+    {
+        const double s = planeOrientation(mesh);
+        transport[0*nDof + 2] = -s*r[mesh.axes[1]];
+        transport[1*nDof + 2] = s*r[mesh.axes[0]];
+        return;
+    }
+    for (int k = 0; k < 3; ++k) // omega x r
+    {
+        transport[k*nDof + 3 + (k + 1) % 3] = r[(k + 2) % 3];
+        transport[k*nDof + 3 + (k + 2) % 3] = -r[(k + 1) % 3];
+    }
+}
+
+} // namespace
+
+double planeOrientation(const SimplexMesh& mesh)
+{
+    return (mesh.axes[1] - mesh.axes[0] + 3) % 3 == 1 ? 1 : -1;
+}
+
+void solidVelocity(const SimplexMesh& mesh, const Solid& solid, double* q)
+{
+    const Vec3 &v = solid.motion.velocity, &w = solid.motion.angularVelocity;
+    if (mesh.dim == 2)
+    {
+        q[0] = v[mesh.axes[0]];
+        q[1] = v[mesh.axes[1]];
+        q[2] = w[mesh.axes[2]];
+        return;
+    }
+    for (int d = 0; d < 3; ++d) { q[d] = v[d]; q[3 + d] = w[d]; }
+}
+
+template<int D>
+void FlowEquation::assembleWalls()
+{
+    constexpr int N = D + 1, B = D + 1, nDof = D == 2 ? 3 : 6;
+    system_.solids.clear();
+    if (!step_.cover || !step_.solids) return;
+    const std::vector<Solid>& solids = *step_.solids;
+    system_.solids.resize(solids.size());
+    const std::vector<FacetGroup<D>> groups = groupFacets<D>(*step_.cover, mesh_.nInnerElements, mesh_.isOwnedElement);
+    std::vector<int> position(mesh_.nNodes, -1);
+    ElementData<D> data;
+    std::size_t g = 0;
+    for (std::size_t s = 0; s < solids.size(); ++s)
+    {
+        const Solid& solid = solids[s];
+        SolidCoupling& coupling = system_.solids[s];
+        coupling.isFree = solid.kind == Solid::Kind::Free;
+        coupling.block.assign(nDof*nDof, 0.0);
+        for (; g < groups.size() && groups[g].solid == int(s); ++g)
+        {
+            const FacetGroup<D>& group = groups[g];
+            if (!loadElement<D>(group.element, data)) continue;
+            const int* nodes = &mesh_.elements[std::size_t(group.element)*N];
+            const bool isInner = group.element < mesh_.nInnerElements;
+            const bool isOwned = mesh_.isOwnedElement[group.element];
+            double transport[N][D*nDof];
+            int place[N];
+            double wallNormalVelocity = 0;  // ubar.n, mean over the facet
+            double slipVelocity = 0;        // (a - ubar).n
+            for (int a = 0; a < N; ++a)
+            {
+                const int i = nodes[a];
+                rigidTransport<D>(mesh_, solid, i, transport[a]);
+                if (position[i] < 0)
+                {
+                    position[i] = int(coupling.node.size());
+                    coupling.node.push_back(i);
+                    coupling.column.resize(coupling.column.size() + B*nDof);
+                    coupling.row.resize(coupling.row.size() + B*nDof);
+                }
+                place[a] = position[i];
+                double q[6];
+                solidVelocity(mesh_, solid, q);
+                for (int k = 0; k < D; ++k)
+                {
+                    double ubar = 0;
+                    for (int d = 0; d < nDof; ++d) ubar += transport[a][k*nDof + d]*q[d];
+                    wallNormalVelocity += group.m1[a]/group.area*ubar*group.normal[k];
+                    slipVelocity += group.m1[a]/group.area*(advection_[std::size_t(i)*D + k] - ubar)*group.normal[k];
+                }
+            }
+            const double h = mesh_.h[group.element];
+            double speed = 0;
+            for (int d = 0; d < D; ++d) speed += data.advection[d]*data.advection[d];
+            WallCoefficients c;
+            c.isNitsche = controls_.nitsche;
+            c.isSlip = solid.wall == Solid::Wall::Slip;
+            c.mu = data.mu;
+            c.tangential = controls_.nitsche
+                ? controls_.nitscheGamma*data.mu/h + data.rho*std::max(0.0, -slipVelocity)
+                : controls_.penalty;
+            c.normal = 0.1*data.rho*(h/step_.time.dt + std::sqrt(speed));
+            c.convection = 0.5*data.rho*wallNormalVelocity;
+            double m[B*B];
+            for (int a = 0; a < N; ++a)
+                for (int b = 0; b < N; ++b)
+                {
+                    const double m2 = group.m2[a*N + b];
+                    wallBlock<D>(c, group.normal, data.gradN, group.m1[a], group.m1[b], m2, a, b, m);
+                    if (isInner && nodes[a] < mesh_.nOwned)
+                    {
+                        double* A = &system_.matrix[std::size_t(graph_.slot[(std::size_t(group.element)*N + a)*N + b])*B*B];
+                        for (int k = 0; k < B*B; ++k) A[k] += m[k];
+                        for (int k = 0; k < D; ++k) A[k*B + k] += c.convection*m2;
+                        double* column = &coupling.column[std::size_t(place[a])*B*nDof];
+                        for (int r = 0; r < B; ++r)
+                            for (int k = 0; k < D; ++k)
+                                for (int d = 0; d < nDof; ++d) column[r*nDof + d] -= m[r*B + k]*transport[b][k*nDof + d];
+                    }
+                    if (!isOwned) continue;
+                    double* row = &coupling.row[std::size_t(place[b])*B*nDof];
+                    for (int k = 0; k < D; ++k)
+                        for (int d = 0; d < nDof; ++d)
+                        {
+                            const double w = transport[a][k*nDof + d];
+                            for (int col = 0; col < B; ++col) row[d*B + col] -= w*m[k*B + col];
+                            for (int l = 0; l < D; ++l)
+                                for (int f = 0; f < nDof; ++f)
+                                    coupling.block[d*nDof + f] += w*m[k*B + l]*transport[b][l*nDof + f];
+                        }
+                }
+        }
+        for (int i : coupling.node) position[i] = -1;
+    }
+}
+
+template<int D>
+void FlowEquation::assembleGhosts()
+{
+    constexpr int N = D + 1;
+    system_.ghosts.clear();
+    if (!step_.cover) return;
+    ElementData<D> side[2];
+    for (const GhostFace& face : step_.cover->ghostFaces)
+    {
+        const InteriorFace& f = graph_.faces[face.face];
+        bool isNeeded = false;
+        for (int s = 0; s < 2; ++s)
+        {
+            loadElement<D>(f.element[s], side[s]);
+            for (int a = 0; a < N; ++a) isNeeded |= mesh_.elements[std::size_t(f.element[s])*N + a] < mesh_.nOwned;
+        }
+        if (!isNeeded) continue;
+        GhostTerm term{};
+        int n = 0;
+        for (int a = 0; a < N; ++a)
+        {
+            const int i = mesh_.elements[std::size_t(f.element[0])*N + a];
+            if (i != f.opposite[0]) term.node[n++] = i;
+        }
+        term.node[n] = f.opposite[0];
+        term.node[n + 1] = f.opposite[1];
+        for (int s = 0; s < 2; ++s)
+        {
+            const double sign = s == 0 ? 1 : -1;
+            for (int a = 0; a < N; ++a)
+            {
+                const int i = mesh_.elements[std::size_t(f.element[s])*N + a];
+                const int k = int(std::find(term.node, term.node + D + 2, i) - term.node);
+                double gn = 0;
+                for (int d = 0; d < D; ++d) gn += side[s].gradN[a*D + d]*face.normal[d];
+                term.jumpVelocity[k] += sign*gn;
+                term.jumpPressure[k] += sign*gn/side[s].rho;
+            }
+            double fn = 0;
+            for (int d = 0; d < D; ++d) fn += side[s].force[d]*face.normal[d];
+            term.pressureSource += sign*fn/side[s].rho;
+        }
+        double speed = 0;
+        for (int d = 0; d < D; ++d)
+        {
+            const double mean = 0.5*(side[0].advection[d] + side[1].advection[d]);
+            speed += mean*mean;
+        }
+        speed = std::sqrt(speed);
+        const double h = 0.5*(mesh_.h[f.element[0]] + mesh_.h[f.element[1]]);
+        const double mu = 0.5*(side[0].mu + side[1].mu), rho = 0.5*(side[0].rho + side[1].rho);
+        const double lighter = std::min(side[0].rho, side[1].rho);
+        term.velocityFactor = face.area*(controls_.ghostVelocity*mu*h + controls_.ghostConvection*rho*speed*h*h);
+        term.pressureFactor = face.area*controls_.ghostPressure*h*h*h*lighter*lighter
+            /(std::min(side[0].mu, side[1].mu) + lighter*(speed*h + h*h/step_.time.dt));
+        system_.ghosts.push_back(term);
+    }
+}
+
+void FlowEquation::ghostFluxes(const std::vector<double>& x, std::vector<PairFlux>& result) const
+{
+    const int n = mesh_.dim + 2, B = mesh_.dim + 1;
+    result.clear();
+    for (const GhostTerm& g : system_.ghosts)
+    {
+        double jump = -g.pressureSource;
+        for (int j = 0; j < n; ++j) jump += g.jumpPressure[j]*x[std::size_t(g.node[j])*B + B - 1];
+        const double f = g.pressureFactor*jump;
+        for (int j = 0; j < n; ++j)
+            for (int k = j + 1; k < n; ++k)
+                result.push_back({g.node[j], g.node[k], f*(g.jumpPressure[j] - g.jumpPressure[k])/n});
+    }
+}
+
+void FlowEquation::setFreeBodies(const std::vector<FreeBody>& bodies, double dt)
+{
+    const int n = system_.nDof, dim = mesh_.dim;
+    std::size_t f = 0;
+    for (SolidCoupling& solid : system_.solids)
+    {
+        if (!solid.isFree) continue;
+        const FreeBody& body = bodies[f++];
+        solid.inertia.assign(n*n, 0.0);
+        solid.rhs.assign(n, 0.0);
+        const double scale = 1/mesh_.thickness; // 2D equations are per unit thickness
+        for (int d = 0; d < dim; ++d)
+        {
+            const int axis = mesh_.axes[d];
+            solid.inertia[d*n + d] = scale*body.mass/dt;
+            solid.rhs[d] = scale*(body.mass*body.velocity[axis]/dt + body.force[axis]);
+        }
+        if (dim == 2)
+        {
+            const int axis = mesh_.axes[2];
+            solid.inertia[2*n + 2] = scale*body.inertia(axis, axis)/dt;
+            solid.rhs[2] = scale*(body.angularMomentum[axis]/dt + body.moment[axis]);
+            continue;
+        }
+        for (int r = 0; r < 3; ++r)
+        {
+            for (int c = 0; c < 3; ++c) solid.inertia[(3 + r)*n + 3 + c] = body.inertia(r, c)/dt;
+            solid.rhs[3 + r] = body.angularMomentum[r]/dt + body.moment[r];
+        }
+    }
+}
+
+template void FlowEquation::assembleWalls<2>();
+template void FlowEquation::assembleWalls<3>();
+template void FlowEquation::assembleGhosts<2>();
+template void FlowEquation::assembleGhosts<3>();
+
+} // namespace flotsam

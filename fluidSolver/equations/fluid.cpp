@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "equations/fluid.hpp"
+
+#include "equations/gravity.hpp"
+#include "equations/materials.hpp"
+#include "equations/initialProfile.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flotsam
+{
+
+Fluid::Fluid(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& fluid, const NumericsControls& controls,
+    const std::vector<BoundaryPatch>& patches)
+:   mesh_(mesh), halo_(halo), graph_(mesh), fluid_(fluid), controls_(controls), patches_(patches), values_(patches.size()),
+    equation_(mesh, graph_, halo, fluid_, controls_, patches_), solver_(mesh, graph_, halo, controls_),
+    transport_(mesh, graph_, halo, controls_)
+{}
+
+void Fluid::start(FlowState state, bool isSharp)
+{
+    state_ = std::move(state);
+    const std::size_t n = std::size_t(mesh_.nNodes)*mesh_.dim;
+    if (state_.uOld.size() != n) state_.uOld = state_.u;
+    if (!fluid_.isTwoPhase) state_.alpha.assign(mesh_.nNodes, 1.0);
+    else if (isSharp) makeStartProfile(mesh_, graph_, halo_, transport_.width(), state_.alpha);
+    if (isSharp || state_.alphaOld.size() != state_.alpha.size()) state_.alphaOld = state_.alphaOlder = state_.alpha;
+    const std::size_t fine = std::size_t(mesh_.nElements)*mesh_.dim;
+    if (state_.fineScale.size() != fine)
+    {
+        state_.fineScale.assign(fine, 0.0);
+        state_.fineScaleOld = state_.fineScale;
+    }
+}
+
+void Fluid::setGeometry(const Cover* cover, const std::vector<Solid>* solids, bool hasChanged)
+{
+    cover_ = cover;
+    solids_ = solids;
+    geometryChanged_ = geometryChanged_ || hasChanged;
+    if (cover && hasChanged && fluid_.isTwoPhase) extendPhase();
+}
+
+void Fluid::evaluatePatches(double time)
+{
+    const BoundaryState state{time, state_.u.data(), state_.alpha.data()};
+    for (std::size_t p = 0; p < patches_.size(); ++p) patches_[p].evaluate(state, values_[p]);
+}
+
+const std::vector<double>& Fluid::halfStep(const std::vector<double>& now, const std::vector<double>& old, double dt,
+    std::vector<double>& work) const
+{
+    if (state_.dt <= 0 || old.size() != now.size()) return now;
+    const double e = 0.5*dt/state_.dt;
+    work.resize(now.size());
+    for (std::size_t k = 0; k < now.size(); ++k) work[k] = now[k] + e*(now[k] - old[k]);
+    return work;
+}
+
+TransportReport Fluid::beginStep(double dt)
+{
+    before_.alpha = state_.alpha;
+    before_.alphaOld = state_.alphaOld;
+    before_.alphaOlder = state_.alphaOlder;
+    time_ = TimeScheme::bdf(controls_.timeOrder, dt, state_.dt);
+    TransportReport report;
+    if (fluid_.isTwoPhase)
+    {
+        evaluatePatches(state_.time + 0.5*dt);
+        state_.alphaOlder = state_.alphaOld;
+        state_.alphaOld = state_.alpha;
+        report = transport_.advance(state_.alpha, dt, halfStep(state_.u, state_.uOld, dt, workU_),
+            halfStep(state_.fineScale, state_.fineScaleOld, dt, workFine_), cover_, patches_, values_,
+            equation_.system().isPressureFixed);
+    }
+    evaluatePatches(state_.time + dt);
+    return report;
+}
+
+/// Inside solids the phase field continues the free surface outside: the nearest plane's profile, so that a plane
+/// reaching into a solid stays a plane. Nodes without a plane keep what they have.
+void Fluid::extendPhase()
+{
+    propagateInterfacePlanes(mesh_, graph_, halo_, state_.alpha, transport_.width(), controls_.gravityLayers, planes_, cover_);
+    for (int i : planes_.nodes())
+    {
+        if (cover_->distance[i] >= 0) continue;
+        const double alpha = 1/(1 + std::exp(-planes_.distance(i)/transport_.width()[i]));
+        state_.alpha[i] = alpha;
+    }
+    halo_.update(state_.alpha, 1);
+}
+
+void Fluid::assemble()
+{
+    std::vector<double> rho(mesh_.nNodes);
+    for (int i = 0; i < mesh_.nNodes; ++i) rho[i] = density(fluid_, controls_, fluid_.isTwoPhase ? state_.alpha[i] : 1);
+    const bool isBalanced = fluid_.isTwoPhase && controls_.balancedGravity;
+    if (isBalanced)
+        propagateInterfacePlanes(mesh_, graph_, halo_, state_.alpha, transport_.width(), controls_.gravityLayers, planes_, cover_);
+    gravityForce(mesh_, fluid_.gravity, rho, isBalanced ? &planes_ : nullptr, cover_, force_);
+
+    FlowStepData step;
+    step.time = time_;
+    step.state = &state_;
+    step.cover = cover_;
+    step.solids = solids_;
+    step.patchValues = &values_;
+    step.elementForce = &force_;
+    equation_.system().geometryChanged = geometryChanged_;
+    equation_.assemble(step);
+    geometryChanged_ = false;
+
+    // start: extrapolated velocity, last pressure
+    const int dim = mesh_.dim, B = dim + 1, nDof = equation_.system().nDof;
+    x_.resize(std::size_t(mesh_.nNodes)*B);
+    for (int i = 0; i < mesh_.nNodes; ++i)
+    {
+        for (int d = 0; d < dim; ++d)
+        {
+            const std::size_t k = std::size_t(i)*dim + d;
+            x_[std::size_t(i)*B + d] = state_.u[k] + time_.extrapolation*(state_.u[k] - state_.uOld[k]);
+        }
+        x_[std::size_t(i)*B + dim] = state_.p[i];
+    }
+    equation_.applyConstraints(values_, x_);
+    q_.assign(solids_ ? solids_->size()*nDof : 0, 0.0);
+    for (std::size_t s = 0; solids_ && s < solids_->size(); ++s) solidVelocity(mesh_, (*solids_)[s], &q_[s*nDof]);
+}
+
+SolveReport Fluid::solve(const std::vector<FreeBody>& bodies)
+{
+    equation_.setFreeBodies(bodies, time_.dt);
+    solver_.setSystem(equation_.system());
+    return solver_.solve(x_, q_);
+}
+
+std::vector<Fluid::SolidLoad> Fluid::solidLoads() const
+{
+    const FlowSystem& system = equation_.system();
+    std::vector<double> rows(q_.size());
+    FlowOperator(graph_, halo_, system, mesh_.nOwned).solidRows(x_.data(), q_.data(), rows.data());
+    std::vector<SolidLoad> loads(system.solids.size(), {Vec3::Zero(), Vec3::Zero()});
+    for (std::size_t s = 0; s < loads.size(); ++s)
+    {
+        const double* r = &rows[s*system.nDof];
+        if (mesh_.dim == 2)
+        {
+            for (int d = 0; d < 2; ++d) loads[s].force[mesh_.axes[d]] = -mesh_.thickness*r[d];
+            loads[s].moment[mesh_.axes[2]] = -mesh_.thickness*r[2];
+        }
+        else for (int d = 0; d < 3; ++d) { loads[s].force[d] = -r[d]; loads[s].moment[d] = -r[3 + d]; }
+    }
+    return loads;
+}
+
+std::vector<Motion> Fluid::solidMotions() const
+{
+    std::vector<Motion> motions;
+    const int nDof = equation_.system().nDof;
+    for (std::size_t s = 0; solids_ && s < solids_->size(); ++s)
+    {
+        Motion m;
+        const double* q = &q_[s*nDof];
+        if (mesh_.dim == 2)
+        {
+            for (int d = 0; d < 2; ++d) m.velocity[mesh_.axes[d]] = q[d];
+            m.angularVelocity[mesh_.axes[2]] = q[2];
+        }
+        else for (int d = 0; d < 3; ++d) { m.velocity[d] = q[d]; m.angularVelocity[d] = q[3 + d]; }
+        motions.push_back(m);
+    }
+    return motions;
+}
+
+/// Nodes inside solids carry the rigid velocity: it is the history of a node that the solid uncovers later.
+void Fluid::moveInactiveNodes()
+{
+    if (!cover_ || !solids_) return;
+    const std::vector<Motion> motions = solidMotions();
+    for (int i = 0; i < mesh_.nNodes; ++i)
+    {
+        if (cover_->isActiveNode[i] || cover_->nearestSolid[i] < 0) continue;
+        const int s = cover_->nearestSolid[i];
+        const std::array<double, 3> p = mesh_.spacePoint(i);
+        const Vec3 r = Vec3(p[0], p[1], p[2]) - (*solids_)[s].pose.position;
+        const Vec3 v = motions[s].velocity + motions[s].angularVelocity.cross(r);
+        for (int d = 0; d < mesh_.dim; ++d)
+        {
+            state_.u[std::size_t(i)*mesh_.dim + d] = v[mesh_.axes[d]];
+            state_.uOld[std::size_t(i)*mesh_.dim + d] = v[mesh_.axes[d]];
+        }
+    }
+}
+
+void Fluid::endStep()
+{
+    const int dim = mesh_.dim, B = dim + 1;
+    std::swap(state_.u, state_.uOld);
+    for (int i = 0; i < mesh_.nNodes; ++i)
+    {
+        for (int d = 0; d < dim; ++d) state_.u[std::size_t(i)*dim + d] = x_[std::size_t(i)*B + d];
+        state_.p[i] = x_[std::size_t(i)*B + dim];
+    }
+    moveInactiveNodes();
+    std::swap(state_.fineScale, state_.fineScaleOld);
+    equation_.fineScale(x_, state_.fineScale);
+    state_.dtOld = state_.dt;
+    state_.dt = time_.dt;
+    state_.time += time_.dt;
+    ++state_.step;
+}
+
+void Fluid::rejectStep()
+{
+    state_.alpha = before_.alpha;
+    state_.alphaOld = before_.alphaOld;
+    state_.alphaOlder = before_.alphaOlder;
+}
+
+bool Fluid::isFinite() const
+{
+    bool isBad = false;
+    for (double v : x_) isBad = isBad || !std::isfinite(v);
+    for (double v : q_) isBad = isBad || !std::isfinite(v);
+    return !halo_.any(isBad);
+}
+
+double Fluid::courantRate() const
+{
+    const int dim = mesh_.dim, n = dim + 1;
+    double largest = 0;
+    for (int e = 0; e < mesh_.nInnerElements; ++e)
+    {
+        if (cover_ && cover_->state[e] == ElementState::Solid) continue;
+        double u[3] = {0, 0, 0}, speed = 0;
+        for (int a = 0; a < n; ++a)
+            for (int d = 0; d < dim; ++d) u[d] += state_.u[std::size_t(mesh_.elements[std::size_t(e)*n + a])*dim + d]/n;
+        for (int d = 0; d < dim; ++d) speed += u[d]*u[d];
+        largest = std::max(largest, std::sqrt(speed)/mesh_.h[e]);
+    }
+    return halo_.max(largest);
+}
+
+double Fluid::liquidVolume() const
+{
+    const int n = mesh_.dim + 1;
+    double sum = 0;
+    for (int e = 0; e < mesh_.nElements; ++e)
+    {
+        if (!mesh_.isOwnedElement[e]) continue;
+        const ElementState state = cover_ ? cover_->state[e] : ElementState::Fluid;
+        if (state == ElementState::Solid) continue;
+        const CutElement* cut = state == ElementState::Cut ? &cover_->cuts[cover_->cutIndex[e]] : nullptr;
+        for (int a = 0; a < n; ++a)
+            sum += (cut ? cut->first[a] : mesh_.volume[e]/n)*state_.alpha[mesh_.elements[std::size_t(e)*n + a]];
+    }
+    return mesh_.thickness*halo_.sum(sum);
+}
+
+std::vector<double> Fluid::wetFractions() const
+{
+    const std::size_t n = solids_ ? solids_->size() : 0;
+    std::vector<double> sums(2*n, 0.0);
+    for (std::size_t f = 0; cover_ && f < cover_->facets.size(); ++f)
+    {
+        const CutFacet& facet = cover_->facets[f];
+        if (!mesh_.isOwnedElement[facet.element]) continue;
+        double alpha = 0;
+        for (int q = 0; q < facet.nPoints; ++q)
+            for (int a = 0; a <= mesh_.dim; ++a)
+                alpha += facet.weight[q]*facet.shape[q][a]*state_.alpha[mesh_.elements[std::size_t(facet.element)*(mesh_.dim + 1) + a]];
+        sums[2*facet.solid] += alpha;
+        sums[2*facet.solid + 1] += facet.area;
+    }
+    if (n) halo_.sum(sums.data(), int(2*n));
+    std::vector<double> result(n, 0.0);
+    for (std::size_t s = 0; s < n; ++s) result[s] = sums[2*s + 1] > 0 ? sums[2*s]/sums[2*s + 1] : 0;
+    return result;
+}
+
+} // namespace flotsam

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The fluid: state, phase field, momentum and continuity of one step, behind a few verbs for the main loop.
+///
+///   beginStep(dt)  phase field to t+dt on the geometry of t, boundary values
+///   assemble()     linear system on the geometry of t+dt
+///   solve()        velocities, pressure, free solids' velocities (repeatable with other contact loads)
+///   endStep()      accept; or rejectStep(): back to t
+#pragma once
+
+#include "algebra/flowLinearSolver.hpp"
+#include "equations/dualCellTransport.hpp"
+#include "equations/flowEquation.hpp"
+#include "equations/interfacePlanes.hpp"
+
+#include <memory>
+
+namespace flotsam
+{
+
+class Fluid
+{
+public:
+    Fluid(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& fluid, const NumericsControls& controls,
+        const std::vector<BoundaryPatch>& patches);
+
+    /// Takes the start fields (u, p, alpha per node); sharp: alpha is turned into the equilibrium profile.
+    void start(FlowState state, bool isSharp);
+
+    /// Geometry of the current state; pass it again after every re-cutting. Null: no solids.
+    /// Newly wet nodes take the phase field of their surroundings.
+    void setGeometry(const Cover* cover, const std::vector<Solid>* solids, bool hasChanged);
+
+    TransportReport beginStep(double dt);
+    void assemble();
+    SolveReport solve(const std::vector<FreeBody>& bodies);
+    void endStep();
+    void rejectStep();
+
+    /// Fluid force and moment (about the pose's position) on every solid from the last solve, space frame, 3D values.
+    struct SolidLoad { Vec3 force, moment; };
+    std::vector<SolidLoad> solidLoads() const;
+    /// Velocity of every solid in the last solve (free: solved; others: as given).
+    std::vector<Motion> solidMotions() const;
+    /// Liquid share of every solid's surface, 0..1. Collective.
+    std::vector<double> wetFractions() const;
+
+    /// Largest |u|/h over the active elements [1/s]. Collective.
+    double courantRate() const;
+
+    /// Liquid volume int alpha over the fluid part [m^3]. Collective.
+    double liquidVolume() const;
+
+    const FlowState& state() const { return state_; }
+    FlowState& state() { return state_; }
+    const SimplexMesh& mesh() const { return mesh_; }
+    const NodeGraph& graph() const { return graph_; }
+    const Halo& halo() const { return halo_; }
+    const FlowEquation& equation() const { return equation_; }
+    bool isFinite() const;  ///< the last solution is a number everywhere. Collective.
+
+private:
+    void evaluatePatches(double time);
+    void moveInactiveNodes();
+    void extendPhase();
+    const std::vector<double>& halfStep(const std::vector<double>& now, const std::vector<double>& old, double dt,
+        std::vector<double>& work) const;
+
+    const SimplexMesh& mesh_;
+    const Halo& halo_;
+    NodeGraph graph_;
+    FluidProperties fluid_;
+    NumericsControls controls_;
+    std::vector<BoundaryPatch> patches_;
+    std::vector<PatchValues> values_;
+
+    FlowState state_, before_;      // before_: alpha levels at the start of the step
+    FlowEquation equation_;
+    FlowLinearSolver solver_;
+    DualCellTransport transport_;
+    InterfacePlanes planes_;
+    const Cover* cover_ = nullptr;
+    const std::vector<Solid>* solids_ = nullptr;
+    TimeScheme time_;
+    std::vector<double> force_;         // nElements*dim
+    std::vector<double> x_, q_;         // solution: nNodes*(dim+1), nDof per solid
+    std::vector<double> workU_, workFine_;
+    bool geometryChanged_ = true;
+};
+
+} // namespace flotsam

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "equations/interfacePlanes.hpp"
+
+#include "geometry/cover.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flotsam
+{
+
+namespace
+{
+
+/// Relative difference of squared distances below which two planes count as equally near.
+constexpr double tieTolerance = 1e-9;
+
+double squaredDistance(const double* a, const double* b, int dim)
+{
+    double s = 0;
+    for (int d = 0; d < dim; ++d)
+        s += (a[d] - b[d])*(a[d] - b[d]);
+    return s;
+}
+
+/// A choice between two equally near planes that depends neither on the order of the elements nor on the rank.
+bool comesFirst(const double* a, const double* b, int dim, double tolerance)
+{
+    for (int d = 0; d < 2*dim; ++d)     // point, then normal
+        if (std::abs(a[d] - b[d]) > (d < dim ? tolerance : tieTolerance))
+            return a[d] < b[d];
+    return false;
+}
+
+bool isCut(const int* nodes, int nCorners, const std::vector<double>& level)
+{
+    bool wet = false, dry = false;
+    for (int a = 0; a < nCorners; ++a)
+        (level[nodes[a]] >= 0 ? wet : dry) = true;
+    return wet && dry;
+}
+
+} // namespace
+
+void InterfacePlanes::clear(const SimplexMesh& mesh)
+{
+    dim_ = mesh.dim;
+    width_ = 2*dim_ + 2;
+    const std::size_t size = static_cast<std::size_t>(mesh.nNodes)*width_;
+    if (data_.size() != size)
+    {
+        data_.assign(size, 0);
+        next_.assign(size, 0);
+        distance_.assign(mesh.nNodes, 0);
+        isOffered_.assign(mesh.nNodes, 0);
+    }
+    for (int i : nodes_)
+        at(i)[width_ - 1] = next_[static_cast<std::size_t>(i)*width_ + width_ - 1] = 0;
+    nodes_.clear();
+    changed_.clear();
+}
+
+/// Takes `plane` for `node` (in next_) when it is nearer than what the node has.
+void InterfacePlanes::offer(const SimplexMesh& mesh, int node, const double* plane)
+{
+    double* own = &next_[static_cast<std::size_t>(node)*width_];
+    if (own[width_ - 1] != 0)
+    {
+        const double* x = &mesh.x[static_cast<std::size_t>(node)*dim_];
+        const double now = squaredDistance(x, own, dim_), then = squaredDistance(x, plane, dim_);
+        const double tolerance = tieTolerance*std::max(now, then);
+        if (then > now + tolerance)
+            return;
+        if (then > now - tolerance && !comesFirst(plane, own, dim_, std::sqrt(std::max(now, then))*tieTolerance))
+            return;
+    }
+    std::copy(plane, plane + width_, own);
+    if (!isOffered_[node])
+    {
+        isOffered_[node] = 1;
+        offered_.push_back(node);
+    }
+}
+
+void InterfacePlanes::planesOfCutElements(const SimplexMesh& mesh, const std::vector<double>& level, const Cover* cover)
+{
+    const int nCorners = dim_ + 1;
+    for (int e = 0; e < mesh.nElements; ++e)
+    {
+        const int* nodes = &mesh.elements[static_cast<std::size_t>(e)*nCorners];
+        if (!isCut(nodes, nCorners, level) || (cover && cover->state[e] == ElementState::Solid))
+            continue;
+
+        double plane[8] = {}, gradient[3] = {};
+        int nCrossings = 0;
+        for (int a = 0; a < nCorners; ++a)
+        {
+            const double la = level[nodes[a]];
+            for (int d = 0; d < dim_; ++d)
+                gradient[d] += la*mesh.gradN[(static_cast<std::size_t>(e)*nCorners + a)*dim_ + d];
+            for (int b = 0; b < nCorners; ++b)
+            {
+                const double lb = level[nodes[b]];
+                if (la < 0 || lb >= 0)
+                    continue;
+                const double t = la/(la - lb);
+                for (int d = 0; d < dim_; ++d)
+                    plane[d] += (1 - t)*mesh.x[nodes[a]*dim_ + d] + t*mesh.x[nodes[b]*dim_ + d];
+                ++nCrossings;
+            }
+        }
+        const double slope = std::sqrt(gradient[0]*gradient[0]
+            + gradient[1]*gradient[1] + gradient[2]*gradient[2]);
+        for (int d = 0; d < dim_; ++d)
+        {
+            plane[d] /= nCrossings;
+            plane[dim_ + d] = gradient[d]/slope;    // slope > 0: the level changes sign
+        }
+        plane[2*dim_] = slope;
+        plane[2*dim_ + 1] = 1;
+        for (int a = 0; a < nCorners; ++a)
+            offer(mesh, nodes[a], plane);
+    }
+    commit();
+}
+
+/// Moves the accepted offers from next_ to data_: a sweep reads only the state before it (the same on any rank).
+void InterfacePlanes::commit()
+{
+    changed_.clear();
+    for (int i : offered_)
+    {
+        if (!has(i))
+            nodes_.push_back(i);
+        std::copy_n(&next_[static_cast<std::size_t>(i)*width_], width_, at(i));
+        isOffered_[i] = 0;
+        changed_.push_back(i);
+    }
+    offered_.clear();
+}
+
+void InterfacePlanes::sweep(const SimplexMesh& mesh, const NodeGraph& graph)
+{
+    const int nCorners = dim_ + 1;
+    for (int i : changed_)
+    {
+        if (i < mesh.nOwned)
+        {
+            for (int k = graph.rowStart[i]; k < graph.rowStart[i + 1]; ++k)
+                if (graph.column[k] != i)
+                    offer(mesh, graph.column[k], at(i));
+            continue;
+        }
+        for (int k = graph.nodeElementStart[i]; k < graph.nodeElementStart[i + 1]; ++k)
+        {
+            const int* nodes = &mesh.elements[static_cast<std::size_t>(graph.nodeElement[k])*nCorners];
+            for (int a = 0; a < nCorners; ++a)
+                if (nodes[a] != i)
+                    offer(mesh, nodes[a], at(i));
+        }
+    }
+    commit();
+}
+
+/// Owners' planes to the halo copies; copies that change hand theirs on in the next sweep.
+void InterfacePlanes::exchange(const SimplexMesh& mesh, const Halo& halo)
+{
+    if (halo.size() == 1)
+        return;
+    const std::size_t first = static_cast<std::size_t>(mesh.nOwned)*width_;
+    before_.assign(data_.begin() + first, data_.end());
+    halo.update(data_, width_);
+    for (int i = mesh.nOwned; i < mesh.nNodes; ++i)
+    {
+        const double* old = &before_[static_cast<std::size_t>(i - mesh.nOwned)*width_];
+        if (at(i)[width_ - 1] == 0 || std::equal(old, old + width_, at(i)))
+            continue;
+        if (old[width_ - 1] == 0)
+            nodes_.push_back(i);
+        std::copy_n(at(i), width_, &next_[static_cast<std::size_t>(i)*width_]);
+        changed_.push_back(i);
+    }
+}
+
+void InterfacePlanes::propagate(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo,
+    const std::vector<double>& level, int nRings, const Cover* cover)
+{
+    clear(mesh);
+    planesOfCutElements(mesh, level, cover);
+    // Two rings of elements are held: two stages are right on the owned nodes before copies must be refreshed.
+    for (int ring = 1; ring <= nRings; ++ring)
+    {
+        sweep(mesh, graph);
+        if (ring % 2 == 1 || ring == nRings)
+            exchange(mesh, halo);
+    }
+    if (nRings < 1)
+        exchange(mesh, halo);
+
+    for (int i : nodes_)
+    {
+        distance_[i] = 0;
+        for (int d = 0; d < dim_; ++d)
+            distance_[i] += normal(i)[d]*(mesh.x[static_cast<std::size_t>(i)*dim_ + d] - point(i)[d]);
+    }
+}
+
+void propagateInterfacePlanes(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo,
+    const std::vector<double>& alpha, const std::vector<double>& width, int nRings, InterfacePlanes& planes,
+    const Cover* cover)
+{
+    constexpr double clip = 4;
+    const double lowest = 1/(1 + std::exp(clip)), highest = 1 - lowest;
+    std::vector<double> level(mesh.nNodes);
+    for (int i = 0; i < mesh.nNodes; ++i)
+    {
+        const double a = alpha[i];
+        level[i] = width[i]*(a <= lowest ? -clip : a >= highest ? clip : std::log(a/(1 - a)));
+    }
+    planes.propagate(mesh, graph, halo, level, nRings, cover);
+}
+
+} // namespace flotsam

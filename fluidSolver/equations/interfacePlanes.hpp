@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The free surface as planes: one plane per element that the surface cuts, handed on to the nodes around it.
+/// Only nodes near the surface are touched; the storage is reused from call to call.
+#pragma once
+
+#include "algebra/halo.hpp"
+#include "core/nodeGraph.hpp"
+
+namespace flotsam
+{
+
+struct Cover;
+
+/// The nearest surface plane of every node near the surface.
+class InterfacePlanes
+{
+public:
+    bool has(int node) const { return !data_.empty() && at(node)[2*dim_ + 1] != 0; }
+    const double* point(int node) const { return at(node); }             ///< dim: on the surface, inside the cut element [m]
+    const double* normal(int node) const { return at(node) + dim_; }     ///< dim: unit, into the liquid
+    double slope(int node) const { return at(node)[2*dim_]; }            ///< |grad level| in the cut element [unit of level / m]
+    double distance(int node) const { return distance_[node]; }          ///< normal.(x - point): positive in the liquid [m]
+    const std::vector<int>& nodes() const { return nodes_; }             ///< local nodes that have a plane, no order
+
+    /// Planes of the zero level of `level` (nNodes, halo up to date, positive in the liquid), handed on over `nRings`
+    /// rings of nodes; a node takes the plane with the nearest point. Elements that `cover` calls solid are left out.
+    /// Collective; the result does not depend on the number of ranks.
+    void propagate(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo,
+        const std::vector<double>& level, int nRings, const Cover* cover = nullptr);
+
+private:
+    const double* at(int node) const { return &data_[static_cast<std::size_t>(node)*width_]; }
+    double* at(int node) { return &data_[static_cast<std::size_t>(node)*width_]; }
+    void clear(const SimplexMesh& mesh);
+    void planesOfCutElements(const SimplexMesh& mesh, const std::vector<double>& level, const Cover* cover);
+    void offer(const SimplexMesh& mesh, int node, const double* plane);
+    void sweep(const SimplexMesh& mesh, const NodeGraph& graph);
+    void commit();
+    void exchange(const SimplexMesh& mesh, const Halo& halo);
+
+    int dim_ = 0, width_ = 0;
+    std::vector<double> data_;      // nNodes*width_: point, normal, slope, flag
+    std::vector<double> next_;      // the same, during a sweep
+    std::vector<double> distance_;
+    std::vector<int> nodes_, changed_, offered_;
+    std::vector<char> isOffered_;
+    std::vector<double> before_;    // halo entries before an exchange
+};
+
+/// Planes of the level alpha = 0.5: level = width ln(alpha/(1-alpha)), clipped at 4 widths, whose gradient is 1 in the
+/// equilibrium profile, so that slope() is the actual steepness relative to it. width: nNodes [m].
+void propagateInterfacePlanes(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo,
+    const std::vector<double>& alpha, const std::vector<double>& width, int nRings, InterfacePlanes& planes,
+    const Cover* cover = nullptr);
+
+} // namespace flotsam

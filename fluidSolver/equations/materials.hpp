@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Density and viscosity of the phase field.
+#pragma once
+
+#include "core/controls.hpp"
+
+#include <algorithm>
+
+namespace flotsam
+{
+
+/// Liquid share used for rho and mu: alpha between the clips c and 1-c mapped to 0..1, so that remnants of alpha below
+/// c deep in either fluid make no buoyancy (docs/numerics.md).
+inline double liquidShare(const NumericsControls& n, double alpha)
+{
+    return std::clamp((alpha - n.densityClip)/(1 - 2*n.densityClip), 0.0, 1.0);
+}
+
+/// [kg/m^3]
+inline double density(const FluidProperties& f, const NumericsControls& n, double alpha)
+{
+    if (!f.isTwoPhase) return f.rhoLiquid;
+    const double s = liquidShare(n, alpha);
+    return f.rhoLiquid*s + f.rhoGas*(1 - s);
+}
+
+/// [Pa s]
+inline double viscosity(const FluidProperties& f, const NumericsControls& n, double alpha)
+{
+    if (!f.isTwoPhase) return f.muLiquid;
+    const double s = liquidShare(n, alpha);
+    return f.muLiquid*s + f.muGas*(1 - s);
+}
+
+} // namespace flotsam

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "equations/profileReconstruction.hpp"
+
+#include "geometry/cover.hpp"
+
+namespace flotsam
+{
+
+namespace
+{
+
+/// Outside [bandEdge, 1 - bandEdge] a cell counts as full or empty.
+constexpr double bandEdge = 1e-4;
+/// Below this ratio |sum of normals|/sum of |normals| a cell gets a roof instead of one front.
+constexpr double coherenceLimit = 0.95;
+
+double variation(double alpha)
+{
+    return alpha*(1 - alpha);
+}
+
+/// Slope of a roof over the interpolated one: blunt for filaments (opposed normals), sharp for corners.
+double roofFactorOf(double coherence)
+{
+    return 0.7 + 0.55*std::clamp((coherence - 0.5)/0.45, 0., 1.);
+}
+
+/// exp(psi at the middle of a slab) from the mean alpha of 1/(1+exp(-psi)) over it; thickness in widths.
+double frontFromMean(double alpha, double thickness)
+{
+    const double a = std::exp(0.5*thickness), b = std::expm1(thickness*alpha);
+    return std::max(b/(a - (b + 1)/a), 1e-300);
+}
+
+/// One element's part of a roof cell as a slab: mean of its profile = log((1 + X upper)/(1 + X lower))/thickness, X = exp(psi at the node).
+struct RoofPart { double weight, upper, lower, thickness; };
+
+constexpr int maxRoofParts = 256;
+
+/// X with sum of the parts' means = alpha, by Newton steps in psi.
+double roofValue(const RoofPart* parts, int nParts, double alpha)
+{
+    double psi = std::log(alpha/(1 - alpha)) + 0.3;
+    for (int iteration = 0; iteration < 12; ++iteration)
+    {
+        const double x = std::exp(psi);
+        double mean = 0, slope = 0;
+        for (int k = 0; k < nParts; ++k)
+        {
+            const RoofPart& p = parts[k];
+            const double up = 1 + x*p.upper, low = 1 + x*p.lower;
+            mean += p.weight*std::log(up/low)/p.thickness;
+            slope += p.weight*x*(p.upper - p.lower)/(up*low*p.thickness);
+        }
+        if (std::abs(mean - alpha) < 1e-9 || slope < 1e-14)
+        {
+            break;
+        }
+        psi -= std::clamp((mean - alpha)/slope, -2., 2.);
+    }
+    return psi;
+}
+
+} // namespace
+
+ProfileReconstruction::ProfileReconstruction(const SimplexMesh& mesh, const NodeGraph& graph, const DualCells& cells,
+    const std::vector<double>& width)
+    : mesh_(mesh), graph_(graph), cells_(cells), width_(width), moments_(ShareMoments::of(mesh.dim)), profile_(mesh.nNodes),
+      level_(mesh.nNodes), normalSum_(std::size_t(mesh.nNodes)*mesh.dim), coherence_(mesh.nNodes)
+{
+}
+
+template<int dim>
+void ProfileReconstruction::sumNormals(const std::vector<double>& alpha, const std::vector<int>& elements, const Cover* cover)
+{
+    constexpr int n = dim + 1;
+    constexpr double clip = 1e-4;   // the same tail value whatever round-off has left in the bulk
+    const double floorLevel = std::log(clip/(1 - clip));
+    for (int e : elements)
+    {
+        for (int a = 0; a < n; ++a)
+        {
+            const int i = mesh_.elements[std::size_t(e)*n + a];
+            const double q = alpha[i];
+            level_[i] = width_[i]*(q <= clip ? floorLevel : q >= 1 - clip ? -floorLevel : std::log(q/(1 - q)));
+            coherence_[i] = 0;
+            std::fill_n(&normalSum_[std::size_t(i)*dim], dim, 0.);
+        }
+    }
+    for (int e : elements)
+    {
+        if (cover && cover->state[e] == ElementState::Solid)
+        {
+            continue;
+        }
+        const int* nodes = &mesh_.elements[std::size_t(e)*n];
+        const double* gradN = &mesh_.gradN[std::size_t(e)*n*dim];
+        double gradient[dim] = {}, weight = 0;
+        for (int a = 0; a < n; ++a)
+        {
+            for (int d = 0; d < dim; ++d)
+            {
+                gradient[d] += level_[nodes[a]]*gradN[a*dim + d];
+            }
+            weight += variation(alpha[nodes[a]]);
+        }
+        const bool isCut = cover && cover->state[e] == ElementState::Cut;
+        weight = (weight*weight + 1e-8)*(isCut ? cover->cuts[cover->cutIndex[e]].volume : mesh_.volume[e]);
+        double length = 0;
+        for (int d = 0; d < dim; ++d)
+        {
+            length += gradient[d]*gradient[d];
+        }
+        length = weight*std::sqrt(length);
+        for (int a = 0; a < n; ++a)
+        {
+            coherence_[nodes[a]] += length;
+            for (int d = 0; d < dim; ++d)
+            {
+                normalSum_[std::size_t(nodes[a])*dim + d] += weight*gradient[d];
+            }
+        }
+    }
+}
+
+template<int dim>
+void ProfileReconstruction::fitFront(int i, double alpha)
+{
+    NodeProfile& p = profile_[i];
+    const double thickness = std::min(2*cells_.halfWidth(i, p.normal)*p.steepness, 600.);
+    double toCentroid = 0;
+    for (int d = 0; d < dim; ++d)
+    {
+        toCentroid += p.normal[d]*cells_.centroid(i)[d];
+    }
+    p.kind = NodeProfile::Kind::Front;
+    p.value = std::log(frontFromMean(alpha, thickness)) - toCentroid*p.steepness;
+}
+
+template<int dim>
+void ProfileReconstruction::fitRoof(int i, double alpha, const Cover* cover)
+{
+    constexpr int n = dim + 1;
+    NodeProfile& p = profile_[i];
+    RoofPart parts[maxRoofParts];
+    int nParts = 0;
+    double total = 0;
+    for (int k = graph_.nodeElementStart[i]; k < graph_.nodeElementStart[i + 1] && nParts < maxRoofParts; ++k)
+    {
+        const int e = graph_.nodeElement[k];
+        if (cover && cover->state[e] == ElementState::Solid)
+        {
+            continue;
+        }
+        const int* nodes = &mesh_.elements[std::size_t(e)*n];
+        const double* gradN = &mesh_.gradN[std::size_t(e)*n*dim];
+        double gradient[dim] = {}, sum = 0, squares = 0;
+        for (int a = 0; a < n; ++a)
+        {
+            const double difference = level_[nodes[a]] - level_[i];    // = gradient.(x_a - x_i)
+            sum += difference;
+            squares += difference*difference;
+            for (int d = 0; d < dim; ++d)
+            {
+                gradient[d] += difference*gradN[a*dim + d];
+            }
+        }
+        double length = 1e-30;
+        for (int d = 0; d < dim; ++d)
+        {
+            length += gradient[d]*gradient[d];
+        }
+        length = std::sqrt(length);
+        const double scale = std::min(p.roofFactor, 1/length)*p.steepness;
+        const double mean = moments_.first*sum;
+        const double spread = (moments_.square - moments_.mixed)*squares + moments_.mixed*sum*sum - mean*mean;
+        const double thickness = std::max(2*scale*std::sqrt(3*std::max(spread, 0.)), 1e-4);
+        RoofPart& part = parts[nParts++];
+        part.weight = mesh_.volume[e];
+        part.thickness = thickness;
+        part.upper = std::exp(std::clamp(scale*mean + 0.5*thickness, -300., 300.));
+        part.lower = std::exp(std::clamp(scale*mean - 0.5*thickness, -300., 300.));
+        total += part.weight;
+    }
+    for (int k = 0; k < nParts; ++k)
+    {
+        parts[k].weight /= total;
+    }
+    p.kind = NodeProfile::Kind::Roof;
+    p.value = roofValue(parts, nParts, alpha);
+}
+
+template<int dim>
+void ProfileReconstruction::build(const std::vector<double>& alpha, const std::vector<int>& elements,
+    const std::vector<int>& nodes, const Cover* cover)
+{
+    nFronts_ = nRoofs_ = 0;
+    sumNormals<dim>(alpha, elements, cover);
+    for (int i : nodes)
+    {
+        NodeProfile& p = profile_[i];
+        p.kind = NodeProfile::Kind::Bulk;
+        const double* g = &normalSum_[std::size_t(i)*dim];
+        double length = 0;
+        for (int d = 0; d < dim; ++d)
+        {
+            length += g[d]*g[d];
+        }
+        length = std::sqrt(length);
+        if (alpha[i] <= bandEdge || alpha[i] >= 1 - bandEdge || length <= 1e-12*coherence_[i] || length <= 0)
+        {
+            continue;
+        }
+        for (int d = 0; d < dim; ++d)
+        {
+            p.normal[d] = g[d]/length;
+        }
+        p.steepness = 1/width_[i];
+        const double coherence = length/coherence_[i];
+        if (coherence >= coherenceLimit)
+        {
+            fitFront<dim>(i, alpha[i]);
+            nFronts_ += i < mesh_.nOwned;
+        }
+        else
+        {
+            p.roofFactor = roofFactorOf(coherence);
+            fitRoof<dim>(i, alpha[i], cover);
+            nRoofs_ += i < mesh_.nOwned;
+        }
+    }
+}
+
+void ProfileReconstruction::build(const std::vector<double>& alpha, const std::vector<int>& elements,
+    const std::vector<int>& nodes, const Cover* cover)
+{
+    if (mesh_.dim == 2)
+    {
+        build<2>(alpha, elements, nodes, cover);
+    }
+    else
+    {
+        build<3>(alpha, elements, nodes, cover);
+    }
+}
+
+} // namespace flotsam

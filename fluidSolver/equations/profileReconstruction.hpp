@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The model's own profile inside every dual cell that the free surface crosses.
+///
+/// A cell's alpha is taken as the mean of 1/(1+exp(-psi)), psi = distance/width, over the cell. Where the neighbours agree
+/// on the direction the surface is one plane front; elsewhere (thin filaments, corners) psi is a "roof": one slope and
+/// direction per element around the node, one value at the node.
+#pragma once
+
+#include "equations/dualCells.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flotsam
+{
+
+/// psi(x) = value + steepness normal.(x - x_node) (front), or per element (roof).
+struct NodeProfile
+{
+    enum class Kind : int { Bulk, Front, Roof };
+    double normal[3];       ///< unit, into the liquid (front)
+    double value;           ///< psi at the node
+    double steepness;       ///< 1/width [1/m]
+    double roofFactor;      ///< slope of a roof over that of the interpolated psi, before it is limited to 1/width
+    Kind kind;
+};
+
+/// int_0^1 of 1/(1+exp(-(psi - s swept))) ds: mean of the profile over what passes a face during a step.
+inline double sweptMean(double psi, double swept)
+{
+    constexpr double limit = 35;    // exp(-35) is below the round-off of 1
+    const double first = std::clamp(psi, -limit, limit);
+    if (std::abs(swept) < 1e-3)
+    {
+        return 1/(1 + std::exp(0.5*swept - first));
+    }
+    const double last = std::clamp(psi - swept, -limit, limit);
+    if (first == last)
+    {
+        return first > 0 ? 1 : 0;
+    }
+    return std::log((1 + std::exp(first))/(1 + std::exp(last)))/(first - last);
+}
+
+class ProfileReconstruction
+{
+public:
+    ProfileReconstruction(const SimplexMesh& mesh, const NodeGraph& graph, const DualCells& cells,
+        const std::vector<double>& width);
+
+    /// `elements`: all local elements in which alpha varies; `nodes`: owned and first-ring nodes of them. Fills profile() of
+    /// `nodes` and level() of all nodes of `elements`. Solid elements of `cover` (may be null) are not read.
+    void build(const std::vector<double>& alpha, const std::vector<int>& elements, const std::vector<int>& nodes,
+        const Cover* cover);
+
+    const NodeProfile& profile(int node) const { return profile_[node]; }
+    /// width ln(alpha/(1-alpha)), clipped [m]: its gradient in an element has length 1 in the equilibrium profile.
+    double level(int node) const { return level_[node]; }
+
+    long nFronts() const { return nFronts_; }
+    long nRoofs() const { return nRoofs_; }
+
+private:
+    template<int dim> void sumNormals(const std::vector<double>& alpha, const std::vector<int>& elements, const Cover* cover);
+    template<int dim> void fitFront(int i, double alpha);
+    template<int dim> void fitRoof(int i, double alpha, const Cover* cover);
+    template<int dim> void build(const std::vector<double>& alpha, const std::vector<int>& elements,
+        const std::vector<int>& nodes, const Cover* cover);
+
+    const SimplexMesh& mesh_;
+    const NodeGraph& graph_;
+    const DualCells& cells_;
+    const std::vector<double>& width_;
+    ShareMoments moments_;
+    std::vector<NodeProfile> profile_;
+    std::vector<double> level_, normalSum_, coherence_;
+    long nFronts_ = 0, nRoofs_ = 0;
+};
+
+} // namespace flotsam

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Stabilisation parameters of the P1/P1 formulation (paper eq 5; Tezduyar 1991, doi 10.1016/S0065-2156(08)70153-4).
+#pragma once
+
+#include <cmath>
+
+namespace flotsam
+{
+
+/// tau of SUPG and PSPG [s]: multiplies the momentum residual divided by rho.
+/// The time step belongs into it: without it the two-phase scheme blows up within 30 steps (docs/numerics.md).
+inline double tauMomentum(double dt, double speed, double h, double nu)
+{
+    const double transient = 2/dt, convective = 2*speed/h, viscous = 12*nu/(h*h);
+    return 1/std::sqrt(transient*transient + convective*convective + viscous*viscous);
+}
+
+/// tau_cont [Pa s] of the grad-div term: rho h^2/(12 tau) (with the time step) or rho (nu + |a| h/2) (without).
+inline double tauContinuity(bool withTimeStep, double rho, double speed, double h, double nu, double tau)
+{
+    return withTimeStep ? rho*h*h/(12*tau) : rho*(nu + 0.5*speed*h);
+}
+
+} // namespace flotsam

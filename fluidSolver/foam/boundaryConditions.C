@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "foam/boundaryConditions.H"
+#include "foam/dictionaryChecks.H"
+
+#include "Function1.H"
+#include "vectorField.H"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flotsam
+{
+
+namespace
+{
+
+using Foam::scalar;
+using Foam::vector;
+
+template<class Type>
+using TimeFunction = std::shared_ptr<const Foam::Function1<Type>>;
+
+template<class Type>
+TimeFunction<Type> timeFunction(const Foam::dictionary& dict, const char* keyword)
+{
+    if (!dict.found(keyword)) failIn(dict, text("Entry '", keyword, "' is missing: give a constant, or a Function1 (table, csv, sine, ...)."));
+    return TimeFunction<Type>(Foam::Function1<Type>::New(keyword, dict).ptr());
+}
+
+[[noreturn]] void failNotAvailable(const ConditionInput& in, const std::string& type, const std::vector<std::string>& known)
+{
+    const auto near = nearestWords(type, known);
+    failIn(in.dict, text("Field ", in.field, ", patch ", in.patch.name(), ": condition '", type, "' is not available in flotsamFoam.",
+        near.empty() ? "" : text("\n    Nearest: ", joined(near)), "\n    Use one of: ", joined(known)));
+}
+
+template<class Condition>
+using Maker = Condition (*)(const ConditionInput&);
+
+/// Looks the type up in a table; constraint types are the mesh's affair and common to all fields.
+template<class Condition>
+Condition makeFrom(const std::vector<std::pair<std::string, Maker<Condition>>>& table, const ConditionInput& in)
+{
+    const std::string type = in.dict.get<Foam::word>("type");
+    std::vector<std::string> known;
+    for (const auto& [name, make] : table)
+    {
+        if (name == type) return make(in);
+        known.push_back(name);
+    }
+    failNotAvailable(in, type, known);
+}
+
+// ---- values
+
+std::vector<double> faceScalars(const ConditionInput& in, const char* keyword)
+{
+    const Foam::scalarField values(keyword, in.dict, in.patch.size());
+    return std::vector<double>(values.begin(), values.end());
+}
+
+std::vector<double> inPlane(const SimplexMesh& mesh, const vector& v)
+{
+    std::vector<double> u(mesh.dim);
+    for (int d = 0; d < mesh.dim; ++d) u[d] = v[mesh.axes[d]];
+    return u;
+}
+
+std::vector<double> faceVectors(const ConditionInput& in, const char* keyword)
+{
+    const Foam::vectorField values(keyword, in.dict, in.patch.size());
+    std::vector<double> result;
+    for (const vector& v : values)
+        for (double c : inPlane(in.adapter.mesh, v)) result.push_back(c);
+    return result;
+}
+
+NodalValues constantValues(std::vector<double> values)
+{
+    return [values = std::move(values)](const BoundaryState&, std::vector<double>& out) { out = values; };
+}
+
+NodalValues nodalScalars(const ConditionInput& in, const char* keyword)
+{
+    return constantValues(averageToNodes(in.patch, in.adapter, in.halo, in.nodes->nodes, faceScalars(in, keyword), 1));
+}
+
+NodalValues uniformScalars(const ConditionInput& in, const char* keyword)
+{
+    return [f = timeFunction<scalar>(in.dict, keyword), n = in.nodes](const BoundaryState& state, std::vector<double>& out)
+    { out.assign(n->nodes.size(), f->value(state.time)); };
+}
+
+// ---- velocity
+
+VelocityCondition fixedVelocity(NodalValues values) { return {BoundaryPatch::Velocity::Fixed, std::move(values)}; }
+
+VelocityCondition noSlip(const ConditionInput& in)
+{
+    return fixedVelocity(constantValues(std::vector<double>(in.nodes->nodes.size()*in.adapter.mesh.dim, 0.0)));
+}
+
+VelocityCondition fixedValueVelocity(const ConditionInput& in)
+{
+    return fixedVelocity(constantValues(averageToNodes(in.patch, in.adapter, in.halo, in.nodes->nodes, faceVectors(in, "value"), in.adapter.mesh.dim)));
+}
+
+VelocityCondition uniformVelocity(const ConditionInput& in)
+{
+    return fixedVelocity([f = timeFunction<vector>(in.dict, "uniformValue"), n = in.nodes](const BoundaryState& state, std::vector<double>& out)
+    {
+        const auto u = inPlane(*n->mesh, f->value(state.time));
+        out.clear();
+        for (std::size_t i = 0; i < n->nodes.size(); ++i) out.insert(out.end(), u.begin(), u.end());
+    });
+}
+
+VelocityCondition slip(const ConditionInput&) { return {BoundaryPatch::Velocity::Slip, {}}; }
+VelocityCondition open(const ConditionInput&) { return {BoundaryPatch::Velocity::Open, {}}; }
+
+/// Normal inflow Q split over the nodes as `weight`; the P1 flux through the patch is exactly Q.
+void distributeFlow(const PatchNodes& patch, const Halo& halo, double flow, const std::vector<double>& weight, const std::string& name,
+    std::vector<double>& out)
+{
+    const int dim = patch.mesh->dim;
+    const double outflow = halo.sum(patch.outflow(weight));
+    const double area = halo.sum(patch.area());
+    out.assign(weight.size()*dim, 0.0);
+    if (flow == 0) return;
+    if (outflow < 1e-9*area)
+        FatalErrorInFunction << "Patch " << name << ": a flow rate of " << flow << " m^3/s is given but there is no part of the patch it could "
+            << "pass: all nodes belong to walls or hold no liquid." << Foam::nl
+            << "    Set the phase field at the patch to 1 below the water level (setFields), or use flowRateInletVelocity." << Foam::exit(Foam::FatalError);
+    for (std::size_t i = 0; i < weight.size(); ++i)
+        for (int d = 0; d < dim; ++d) out[i*dim + d] = -flow/outflow*weight[i]*patch.normal[i*dim + d];
+}
+
+VelocityCondition flowRateVelocity(const ConditionInput& in)
+{
+    if (in.dict.found("massFlowRate"))
+        failIn(in.dict, "massFlowRate is not available: give volumetricFlowRate [m^3/s] (mass flow rate over density).");
+    if (in.dict.getOrDefault<bool>("extrapolateProfile", false))
+        failIn(in.dict, "extrapolateProfile yes is not available: the velocity is uniform over the patch. Remove the entry.");
+    std::vector<double> weight;
+    for (double wall : in.wallNode) weight.push_back(1 - wall);
+    return fixedVelocity([f = timeFunction<scalar>(in.dict, "volumetricFlowRate"), n = in.nodes, &halo = in.halo, weight, name = in.patch.name()](
+        const BoundaryState& state, std::vector<double>& out) { distributeFlow(*n, halo, f->value(state.time), weight, name, out); });
+}
+
+VelocityCondition variableHeightVelocity(const ConditionInput& in)
+{
+    const Foam::word alpha = in.dict.getOrDefault<Foam::word>("alpha", in.controls.alphaName);
+    if (in.controls.alphaName.empty()) failIn(in.dict, "variableHeightFlowRateInletVelocity needs two fluids; use flowRateInletVelocity.");
+    if (alpha != in.controls.alphaName)
+        failIn(in.dict, text("Entry 'alpha' is ", alpha, "; the phase field of this case is ", in.controls.alphaName, "."));
+    return fixedVelocity([f = timeFunction<scalar>(in.dict, "flowRate"), n = in.nodes, &halo = in.halo, wall = in.wallNode, name = in.patch.name()](
+        const BoundaryState& state, std::vector<double>& out)
+    {
+        std::vector<double> weight;
+        for (std::size_t i = 0; i < wall.size(); ++i) weight.push_back((1 - wall[i])*std::clamp(state.alpha[n->nodes[i]], 0.0, 1.0));
+        distributeFlow(*n, halo, f->value(state.time), weight, name, out);
+    });
+}
+
+VelocityCondition pressureVelocity(const ConditionInput& in)
+{
+    if (in.dict.found("tangentialVelocity"))
+        failIn(in.dict, "Entry 'tangentialVelocity' is not available: remove it, the velocity at the patch follows from the flow.");
+    return open(in);
+}
+
+VelocityCondition inletOutletVelocity(const ConditionInput& in)
+{
+    for (double u : faceVectors(in, "inletValue"))
+        if (u != 0)
+            failIn(in.dict, "inletOutlet with an inletValue other than zero is not available for the velocity: use fixedValue where the fluid enters, "
+                "or inletValue uniform (0 0 0).");
+    return open(in);
+}
+
+const std::vector<std::pair<std::string, Maker<VelocityCondition>>>& velocityTable()
+{
+    static const std::vector<std::pair<std::string, Maker<VelocityCondition>>> table{
+        {"fixedValue", fixedValueVelocity}, {"uniformFixedValue", uniformVelocity}, {"noSlip", noSlip}, {"movingWallVelocity", noSlip},
+        {"slip", slip}, {"symmetry", slip}, {"symmetryPlane", slip}, {"flowRateInletVelocity", flowRateVelocity},
+        {"variableHeightFlowRateInletVelocity", variableHeightVelocity}, {"zeroGradient", open}, {"inletOutlet", inletOutletVelocity},
+        {"pressureInletOutletVelocity", pressureVelocity}, {"pressureInletVelocity", pressureVelocity}};
+    return table;
+}
+
+// ---- pressure
+
+/// values*scale + rho (g.x - ghRef) with the local density: p_rgh -> p. `isFull`: the values are p already.
+NodalValues fullPressure(const ConditionInput& in, NodalValues values, bool isFull)
+{
+    const bool addGravity = !isFull && in.field == "p_rgh";
+    std::vector<double> potential;
+    for (int node : in.nodes->nodes) potential.push_back(addGravity ? gravityPotential(in.controls, in.adapter.mesh, node) : 0);
+    return [values = std::move(values), potential, n = in.nodes, fluid = in.controls.fluid, scale = in.scale](const BoundaryState& state, std::vector<double>& out)
+    {
+        values(state, out);
+        for (std::size_t i = 0; i < out.size(); ++i)
+        {
+            const double rho = fluid.isTwoPhase ? densityAt(fluid, state.alpha[n->nodes[i]]) : fluid.rhoLiquid;
+            out[i] = out[i]*scale + rho*potential[i];
+        }
+    };
+}
+
+using Pressure = BoundaryPatch::Pressure;
+
+PressureCondition naturalPressure(const ConditionInput&) { return {Pressure::Natural, {}}; }
+PressureCondition fixedPressure(const ConditionInput& in) { return {Pressure::Fixed, fullPressure(in, nodalScalars(in, "value"), false)}; }
+PressureCondition uniformPressure(const ConditionInput& in) { return {Pressure::Fixed, fullPressure(in, uniformScalars(in, "uniformValue"), false)}; }
+PressureCondition totalPressure(const ConditionInput& in) { return {Pressure::Total, fullPressure(in, nodalScalars(in, "p0"), false)}; }
+PressureCondition uniformTotal(const ConditionInput& in) { return {Pressure::Total, fullPressure(in, uniformScalars(in, "p0"), false)}; }
+// the prgh conditions give the full pressure: p_rgh = p - rho (g.x - ghRef)
+PressureCondition prghPressure(const ConditionInput& in) { return {Pressure::Fixed, fullPressure(in, nodalScalars(in, "p"), true)}; }
+PressureCondition prghTotal(const ConditionInput& in) { return {Pressure::Total, fullPressure(in, nodalScalars(in, "p0"), true)}; }
+
+const std::vector<std::pair<std::string, Maker<PressureCondition>>>& pressureTable(bool isModified)
+{
+    static const std::vector<std::pair<std::string, Maker<PressureCondition>>> common{
+        {"fixedValue", fixedPressure}, {"uniformFixedValue", uniformPressure}, {"totalPressure", totalPressure}, {"uniformTotalPressure", uniformTotal},
+        {"zeroGradient", naturalPressure}, {"fixedFluxPressure", naturalPressure}, {"slip", naturalPressure}, {"symmetry", naturalPressure},
+        {"symmetryPlane", naturalPressure}};
+    static const auto modified = []
+    {
+        auto table = common;
+        table.insert(table.end(), {{"prghPressure", prghPressure}, {"prghTotalPressure", prghTotal}});
+        return table;
+    }();
+    return isModified ? modified : common;
+}
+
+// ---- phase
+
+using Phase = BoundaryPatch::Phase;
+
+PhaseCondition naturalPhase(const ConditionInput&) { return {Phase::Natural, {}}; }
+
+PhaseCondition inflowPhase(const ConditionInput& in, const char* keyword)
+{
+    for (double a : faceScalars(in, keyword)) checkRange(in.dict, keyword, a, {0, 1}, "A phase fraction: 1 liquid, 0 gas.");
+    return {Phase::Inflow, nodalScalars(in, keyword)};
+}
+PhaseCondition fixedPhase(const ConditionInput& in) { return inflowPhase(in, "value"); }
+PhaseCondition inletOutletPhase(const ConditionInput& in) { return inflowPhase(in, "inletValue"); }
+PhaseCondition uniformPhase(const ConditionInput& in) { return {Phase::Inflow, uniformScalars(in, "uniformValue")}; }
+PhaseCondition uniformInletOutletPhase(const ConditionInput& in) { return {Phase::Inflow, uniformScalars(in, "uniformInletValue")}; }
+
+/// The phase at the patch enters again, values below/above the bounds as pure gas/liquid: the water level at the inlet floats.
+PhaseCondition variableHeightPhase(const ConditionInput& in)
+{
+    const double lower = readNumber(in.dict, "lowerBound", {-1, 1}), upper = readNumber(in.dict, "upperBound", {0, 2});
+    if (lower >= upper) failIn(in.dict, text("lowerBound ", lower, " must be below upperBound ", upper, "."));
+    return {Phase::Inflow, [n = in.nodes, lower, upper](const BoundaryState& state, std::vector<double>& out)
+    {
+        out.clear();
+        for (int node : n->nodes)
+        {
+            const double a = state.alpha[node];
+            out.push_back(a < lower ? 0.0 : a > upper ? 1.0 : a);
+        }
+    }};
+}
+
+PhaseCondition contactAngle(const ConditionInput& in)
+{
+    const double theta = readNumber(in.dict, "theta0", {0, 180});
+    if (theta != 90) failIn(in.dict, text("Contact angle theta0 ", theta, " is not modelled; allowed: 90 (the natural condition), as zeroGradient."));
+    return naturalPhase(in);
+}
+
+const std::vector<std::pair<std::string, Maker<PhaseCondition>>>& phaseTable()
+{
+    static const std::vector<std::pair<std::string, Maker<PhaseCondition>>> table{
+        {"zeroGradient", naturalPhase}, {"fixedValue", fixedPhase}, {"uniformFixedValue", uniformPhase}, {"inletOutlet", inletOutletPhase},
+        {"uniformInletOutlet", uniformInletOutletPhase}, {"variableHeightFlowRate", variableHeightPhase}, {"constantAlphaContactAngle", contactAngle},
+        {"slip", naturalPhase}, {"symmetry", naturalPhase}, {"symmetryPlane", naturalPhase}};
+    return table;
+}
+
+} // namespace
+
+VelocityCondition makeVelocityCondition(const ConditionInput& input) { return makeFrom(velocityTable(), input); }
+PressureCondition makePressureCondition(const ConditionInput& input) { return makeFrom(pressureTable(input.field == "p_rgh"), input); }
+PhaseCondition makePhaseCondition(const ConditionInput& input) { return makeFrom(phaseTable(), input); }
+
+bool isNoSlipWall(const Foam::dictionary& dict, const Foam::polyPatch& patch)
+{
+    const Foam::word type = dict.getOrDefault<Foam::word>("type", "");
+    if (type == "noSlip" || type == "movingWallVelocity") return true;
+    if (type != "fixedValue" || patch.type() != "wall") return false;
+    const Foam::vectorField values("value", dict, patch.size());
+    return std::all_of(values.begin(), values.end(), [](const vector& v) { return v == vector::zero; });
+}
+
+double gravityPotential(const CaseControls& controls, const SimplexMesh& mesh, int node)
+{
+    const auto x = mesh.spacePoint(node);
+    const auto& g = controls.fluid.gravity;
+    return g[0]*x[0] + g[1]*x[1] + g[2]*x[2] - controls.gravityPotentialRef;
+}
+
+double densityAt(const FluidProperties& fluid, double alpha)
+{
+    const double a = std::clamp(alpha, 0.0, 1.0);
+    return a*fluid.rhoLiquid + (1 - a)*fluid.rhoGas;
+}
+
+} // namespace flotsam

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "foam/boundaryReader.H"
+#include "foam/dictionaryChecks.H"
+
+#include "Time.H"
+#include "localIOdictionary.H"
+
+namespace flotsam
+{
+
+namespace
+{
+
+/// A field file as it stands, without making the field: conditions unknown to OpenFOAM's libraries can be named too.
+class RawField
+{
+public:
+    RawField(const Foam::polyMesh& mesh, const std::string& name, const Foam::word& type)
+    :
+        mesh_(mesh),
+        dict_(Foam::IOobject(name, mesh.time().timeName(), mesh, Foam::IOobject::MUST_READ, Foam::IOobject::NO_WRITE, false), type)
+    {}
+
+    /// Entry of a patch by name, then group (last wins), then pattern: the order in which OpenFOAM reads fields.
+    const Foam::dictionary& patch(const Foam::polyPatch& patch) const
+    {
+        const Foam::dictionary& boundary = dict_.subDict("boundaryField");
+        if (boundary.found(patch.name(), Foam::keyType::LITERAL)) return boundary.subDict(patch.name());
+        for (auto entry = boundary.crbegin(); entry != boundary.crend(); ++entry)
+            if (entry->isDict() && entry->keyword().isLiteral() && patch.inGroups().found(entry->keyword())) return entry->dict();
+        if (!boundary.found(patch.name()))
+            failIn(boundary, text("Cannot find patchField entry for ", patch.name(), "."));
+        return boundary.subDict(patch.name());
+    }
+
+    Foam::dimensionSet dimensions() const { return dict_.get<Foam::dimensionSet>("dimensions"); }
+    const Foam::dictionary& dict() const { return dict_; }
+
+private:
+    const Foam::polyMesh& mesh_;
+    Foam::localIOdictionary dict_;
+};
+
+bool hasField(const Foam::polyMesh& mesh, const Foam::word& name)
+{
+    Foam::IOobject io(name, mesh.time().timeName(), mesh, Foam::IOobject::MUST_READ, Foam::IOobject::NO_WRITE, false);
+    return io.typeHeaderOk<Foam::localIOdictionary>(false);
+}
+
+/// Factor that makes the file's pressures Pa (kinematic pressures of a single fluid: its density).
+double pressureScale(const RawField& field, const CaseControls& controls)
+{
+    if (field.dimensions() == Foam::dimPressure) return 1;
+    if (field.dimensions() == Foam::dimPressure/Foam::dimDensity && !controls.fluid.isTwoPhase) return controls.fluid.rhoLiquid;
+    std::ostringstream found;
+    for (int k = 0; k < 7; ++k) found << (k ? " " : "") << field.dimensions()[static_cast<Foam::dimensionSet::dimensionType>(k)];
+    failIn(field.dict(), text("The pressure has dimensions [", found.str(), "]; allowed: [1 -1 -2 0 0 0 0] (Pa)",
+        controls.fluid.isTwoPhase ? "." : " or [0 2 -2 0 0 0 0] (kinematic, single fluid)."));
+}
+
+/// 1 at the nodes of a patch that a no-slip wall holds.
+std::vector<double> heldByWalls(const PatchNodes& patch, const std::vector<int>& isWallNode)
+{
+    std::vector<double> held;
+    for (int node : patch.nodes) held.push_back(isWallNode[node]);
+    return held;
+}
+
+void checkCombination(const BoundaryPatch& patch, const Foam::dictionary& velocity, const Foam::dictionary& pressure, const std::string& pressureName)
+{
+    if (patch.velocity == BoundaryPatch::Velocity::Open || patch.pressure == BoundaryPatch::Pressure::Natural) return;
+    failIn(pressure, text("Patch ", patch.name, ": U is '", velocity.get<Foam::word>("type"), "' and ", pressureName, " is '",
+        pressure.get<Foam::word>("type"), "': both are prescribed.\n    Where the velocity is prescribed use fixedFluxPressure or zeroGradient for ",
+        pressureName, ";\n    where the pressure is prescribed use pressureInletOutletVelocity, inletOutlet or zeroGradient for U."));
+}
+
+/// All patches at once sit behind one function: values of the three fields.
+std::function<void(const BoundaryState&, PatchValues&)> evaluator(NodalValues velocity, NodalValues pressure, NodalValues phase)
+{
+    return [=](const BoundaryState& state, PatchValues& values)
+    {
+        velocity ? velocity(state, values.velocity) : values.velocity.clear();
+        pressure ? pressure(state, values.pressure) : values.pressure.clear();
+        phase ? phase(state, values.alpha) : values.alpha.clear();
+    };
+}
+
+struct PatchSource { const Foam::polyPatch* patch; std::shared_ptr<const PatchNodes> nodes; };
+
+std::vector<PatchSource> patchSources(const Foam::polyMesh& mesh, const MeshAdapter& adapter, const Halo& halo)
+{
+    std::vector<PatchSource> sources;
+    for (const MeshPatch& meshPatch : adapter.mesh.patches)
+    {
+        const Foam::label id = mesh.boundaryMesh().findPatchID(meshPatch.name);
+        if (id < 0) FatalErrorInFunction << "No patch " << meshPatch.name << " in the mesh." << Foam::exit(Foam::FatalError);
+        sources.push_back({&mesh.boundaryMesh()[id], std::make_shared<PatchNodes>(makePatchNodes(adapter.mesh, halo, meshPatch))});
+    }
+    return sources;
+}
+
+std::vector<int> wallNodes(const std::vector<PatchSource>& sources, const RawField& velocity, const MeshAdapter& adapter, const Halo& halo,
+    std::vector<char>& isWallPatch)
+{
+    std::vector<int> isWallNode(adapter.mesh.nNodes, 0);
+    for (const auto& source : sources)
+    {
+        // ranks without a face of the patch must not say no
+        const bool isOther = halo.any(!isNoSlipWall(velocity.patch(*source.patch), *source.patch));
+        isWallPatch.push_back(!isOther);
+        if (isOther) continue;
+        for (int node : source.nodes->nodes) isWallNode[node] = 1;
+    }
+    return isWallNode;
+}
+
+} // namespace
+
+std::string pressureFieldName(const Foam::polyMesh& mesh, const CaseControls& controls)
+{
+    if (hasField(mesh, "p_rgh")) return "p_rgh";
+    if (controls.fluid.isTwoPhase)
+        FatalErrorInFunction << "File " << mesh.time().timePath()/"p_rgh" << " is missing: two fluids are solved as in interFoam, "
+            << "with p_rgh = p - rho g.x as pressure field." << Foam::exit(Foam::FatalError);
+    return "p";
+}
+
+std::vector<BoundaryPatch> readBoundary(const Foam::polyMesh& mesh, const MeshAdapter& adapter, const Halo& halo, const CaseControls& controls)
+{
+    const std::string pressureName = pressureFieldName(mesh, controls);
+    const RawField velocity(mesh, "U", "volVectorField");
+    const RawField pressure(mesh, pressureName, "volScalarField");
+    std::unique_ptr<RawField> phase;
+    if (controls.fluid.isTwoPhase) phase = std::make_unique<RawField>(mesh, controls.alphaName, "volScalarField");
+    const double scale = pressureScale(pressure, controls);
+
+    const auto sources = patchSources(mesh, adapter, halo);
+    std::vector<char> isWallPatch;
+    const auto isWallNode = wallNodes(sources, velocity, adapter, halo, isWallPatch);
+
+    std::vector<BoundaryPatch> result;
+    for (std::size_t i = 0; i < sources.size(); ++i)
+    {
+        const Foam::polyPatch& patch = *sources[i].patch;
+        const auto input = [&](const RawField& field, const std::string& name, double factor)
+        {
+            return ConditionInput{field.patch(patch), patch, adapter, halo, controls, sources[i].nodes,
+                heldByWalls(*sources[i].nodes, isWallNode), name, factor};
+        };
+        const auto u = makeVelocityCondition(input(velocity, "U", 1));
+        const auto p = makePressureCondition(input(pressure, pressureName, scale));
+        const auto a = phase ? makePhaseCondition(input(*phase, controls.alphaName, 1)) : PhaseCondition();
+
+        BoundaryPatch out;
+        out.name = patch.name();
+        out.isNoSlipWall = isWallPatch[i];
+        out.meshPatch = static_cast<int>(i);
+        out.velocity = u.kind;
+        out.pressure = p.kind;
+        out.phase = a.kind;
+        out.nodes = sources[i].nodes->nodes;
+        out.evaluate = evaluator(u.values, p.values, a.values);
+        checkCombination(out, velocity.patch(patch), pressure.patch(patch), pressureName);
+        result.push_back(std::move(out));
+    }
+    return result;
+}
+
+std::string describe(const BoundaryPatch& patch)
+{
+    static const char* velocity[] = {"prescribed", "slip", "open"};
+    static const char* pressure[] = {"from the flow", "prescribed", "total pressure where fluid enters"};
+    static const char* phase[] = {"from the flow", "prescribed where fluid enters"};
+    return text(patch.name, ": velocity ", patch.isNoSlipWall ? "no-slip" : velocity[static_cast<int>(patch.velocity)],
+        ", pressure ", pressure[static_cast<int>(patch.pressure)], ", phase ", phase[static_cast<int>(patch.phase)]);
+}
+
+} // namespace flotsam

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "foam/caseCheck.H"
+#include "foam/boundaryReader.H"
+#include "foam/dictionaryChecks.H"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flotsam
+{
+
+namespace
+{
+
+struct MeshCounts { long nodes = 0, elements = 0, largestShare = 0; double hMin = 0, hMax = 0; };
+
+MeshCounts count(const SimplexMesh& mesh, const Halo& halo)
+{
+    MeshCounts counts;
+    long owned = 0;
+    double hMin = 1e300, hMax = 0;
+    for (int e = 0; e < mesh.nElements; ++e)
+    {
+        owned += mesh.isOwnedElement[e];
+        hMin = std::min(hMin, mesh.h[e]);
+        hMax = std::max(hMax, mesh.h[e]);
+    }
+    counts.nodes = static_cast<long>(mesh.nGlobal);
+    counts.elements = halo.sum(owned);
+    counts.largestShare = static_cast<long>(halo.max(static_cast<double>(mesh.nOwned)));
+    counts.hMin = halo.min(hMin);
+    counts.hMax = halo.max(hMax);
+    return counts;
+}
+
+void line(const char* what, const std::string& value)
+{
+    std::string s = text("  ", what);
+    s.resize(std::max<std::size_t>(s.size(), 22), ' ');
+    Foam::Info << s.c_str() << value.c_str() << Foam::nl;
+}
+
+std::string fluidLine(const CaseControls& controls)
+{
+    const FluidProperties& f = controls.fluid;
+    return f.isTwoPhase ? text("two, ", controls.liquidName, " rho ", f.rhoLiquid, " mu ", f.muLiquid, ", gas rho ", f.rhoGas, " mu ", f.muGas)
+                        : text("one, rho ", f.rhoLiquid, " mu ", f.muLiquid, " (no phase field)");
+}
+
+std::string timeLine(const TimeControls& time)
+{
+    if (!time.adjustTimeStep) return text("fixed, ", time.deltaT, " s");
+    return text("adaptive, from ", time.deltaT, " s; maxCo ", time.maxCo, ", bodies ", time.maxBodyCo,
+        time.maxDeltaT < 1e29 ? text(", at most ", time.maxDeltaT, " s") : "");
+}
+
+std::string bodiesLine(const SceneCounts& scene)
+{
+    if (scene.bodies == 0) return "none (DEM engine not opened)";
+    return text(scene.bodies, " free, ", scene.demSpheres, " DEM spheres, ", scene.walls, " DEM walls");
+}
+
+std::string structuresLine(const SceneCounts& scene)
+{
+    if (scene.fixedStructures + scene.movingStructures == 0) return "none";
+    return text(scene.fixedStructures, " fixed, ", scene.movingStructures, " moving",
+        scene.bodies + scene.movingStructures == 0 ? " (mesh cut once)" : "");
+}
+
+void printCost(const MeshCounts& counts, const SimplexMesh& mesh, const SceneCounts& scene, const CostModel& cost, int ranks)
+{
+    const double bytes = mesh.dim == 2 ? cost.bytesPerNode2d : cost.bytesPerNode3d;
+    const double micro = mesh.dim == 2 ? cost.microsecondsPerNode2d : cost.microsecondsPerNode3d;
+    const double seconds = 1e-6*(micro*counts.largestShare + cost.microsecondsPerSphere*scene.demSpheres);
+    line("memory", text("about ", std::ceil(bytes*counts.nodes/1e6), " MB on ", ranks, ranks > 1 ? " ranks" : " rank"));
+    line("time per step", text("about ", std::round(seconds*1000)/1000, " s (estimate for one core per rank)"));
+}
+
+} // namespace
+
+void printCaseCheck(const CaseControls& controls, const MeshAdapter& adapter, const Halo& halo, const std::vector<BoundaryPatch>& boundary,
+    const SceneCounts& scene, const CostModel& cost)
+{
+    const SimplexMesh& mesh = adapter.mesh;
+    const MeshCounts counts = count(mesh, halo);
+    Foam::Info << "What will be solved" << Foam::nl;
+    line("mesh", text(mesh.dim == 2 ? "2D triangles, " : "3D tetrahedra, ", counts.nodes, " nodes, ", counts.elements, " elements, element length ",
+        counts.hMin, " to ", counts.hMax, " m"));
+    line("fluids", fluidLine(controls));
+    const auto& g = controls.fluid.gravity;
+    line("gravity", text("(", g[0], " ", g[1], " ", g[2], ") m/s^2"));
+    line("structures", structuresLine(scene));
+    line("bodies", bodiesLine(scene));
+    line("time step", timeLine(controls.time));
+    for (const auto& patch : boundary) line("patch", describe(patch));
+    const bool hasLevel = std::any_of(boundary.begin(), boundary.end(), [](const BoundaryPatch& b) { return b.pressure != BoundaryPatch::Pressure::Natural; });
+    if (!hasLevel) line("pressure level", text("none prescribed: pRefValue ", controls.pRefValue));
+    if (scene.bodies > 0 && scene.thinnestBody < 3*counts.hMin)
+        line("warning", text("the thinnest body (", scene.thinnestBody, " m) spans less than 3 of the smallest elements (", counts.hMin, " m): refine around the bodies"));
+    printCost(counts, mesh, scene, cost, halo.size());
+    Foam::Info << Foam::endl;
+}
+
+} // namespace flotsam

@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "foam/controlsReader.H"
+#include "foam/dictionaryChecks.H"
+
+#include "IOdictionary.H"
+#include "OSspecific.H"
+#include "dimensionedTypes.H"
+#include "uniformDimensionedFields.H"
+
+#include <algorithm>
+#include <variant>
+
+namespace flotsam
+{
+
+namespace
+{
+
+using NumericsMember = std::variant<double NumericsControls::*, int NumericsControls::*, bool NumericsControls::*>;
+
+/// One entry of the sub-dictionary.
+struct ControlEntry
+{
+    const char* keyword;
+    NumericsMember member;
+    Range range;
+    const char* meaning; ///< printed beside the value and as the hint of an error
+};
+
+const Range anyValue{0, 1};
+
+const std::vector<ControlEntry>& controlsTable()
+{
+    using N = NumericsControls;
+    static const std::vector<ControlEntry> table{
+        {"timeOrder", &N::timeOrder, {1, 2}, "1: BDF1, 2: BDF2"},
+        {"tauContFactor", &N::tauContFactor, {0, 100}, "multiplies the continuity stabilisation"},
+        {"tauContWithTimeStep", &N::tauContWithTimeStep, anyValue, "on: time step within the stabilisation time; off: steady form"},
+        {"nitsche", &N::nitsche, anyValue, "on: Nitsche condition on solids; off: pure penalty (entry penalty)"},
+        {"nitscheGamma", &N::nitscheGamma, {0, 1e6}, "coefficient of mu/h of the Nitsche condition"},
+        {"penalty", &N::penalty, {0, 1e12, true}, "pure penalty coefficient [Pa s/m], used with nitsche off"},
+        {"ghostVelocity", &N::ghostVelocity, {0, 100}, "ghost penalty of the velocity, viscous scale"},
+        {"ghostConvection", &N::ghostConvection, {0, 100}, "ghost penalty of the velocity, convective scale"},
+        {"ghostPressure", &N::ghostPressure, {0, 100}, "ghost penalty of the pressure"},
+        {"dualCellTransport", &N::dualCellTransport, anyValue, "on: conservative dual-cell transport of the phase; off: SUPG form"},
+        {"interfaceWidth", &N::interfaceWidth, {0.1, 5}, "interface thickness over element length"},
+        {"mobility", &N::mobility, {0, 10}, "phase field mobility over the largest speed, optional model flux"},
+        {"transportCourant", &N::transportCourant, {0, 1, true}, "limit of a transport sub-step: dt outflow/volume"},
+        {"densityClip", &N::densityClip, {0, 0.2}, "phase values this near to 0 and 1 count as pure fluid in density and viscosity"},
+        {"balancedGravity", &N::balancedGravity, anyValue, "on: gravity exactly balanced at rest; off: element mean density"},
+        {"gravityLayers", &N::gravityLayers, {0, 100}, "rings of elements over which interface planes are handed on"},
+        {"tolerance", &N::tolerance, {0, 0.1, true}, "relative residual of the linear solve"},
+        {"maxIterations", &N::maxIterations, {1, 100000}, "of the linear solve; a step that needs more is repeated smaller"},
+        {"restart", &N::restart, {2, 1000}, "Krylov vectors kept"},
+        {"contactTolerance", &N::contactTolerance, {0, 1, true}, "relative change of the contact impulse that ends the repeats"},
+        {"maxContactRepeats", &N::maxContactRepeats, {0, 1000}, "fluid-contact repeats of one step"},
+        {"demTimeStep", &N::demTimeStep, {0, 1}, "contact sub-step [s]; 0: from stiffness and masses"},
+    };
+    return table;
+}
+
+double numberOf(const NumericsControls& numerics, const NumericsMember& member)
+{
+    return std::visit([&](auto m) { return static_cast<double>(numerics.*m); }, member);
+}
+
+void readEntry(const Foam::dictionary& dict, const ControlEntry& entry, NumericsControls& numerics)
+{
+    if (auto* number = std::get_if<double NumericsControls::*>(&entry.member))
+        numerics.**number = readNumberOr(dict, entry.keyword, numerics.**number, entry.range, entry.meaning);
+    else if (auto* count = std::get_if<int NumericsControls::*>(&entry.member))
+        numerics.**count = readCountOr(dict, entry.keyword, numerics.**count, entry.range, entry.meaning);
+    else
+    {
+        bool& flag = numerics.*std::get<bool NumericsControls::*>(entry.member);
+        flag = dict.getOrDefault<bool>(entry.keyword, flag);
+    }
+}
+
+double readDimensioned(const Foam::dictionary& dict, const char* keyword, const Foam::dimensionSet& dims)
+{
+    const double value = Foam::dimensionedScalar(keyword, dims, dict).value();
+    checkRange(dict, keyword, value, positive);
+    return value;
+}
+
+void checkNewtonian(const Foam::dictionary& dict)
+{
+    const Foam::word model = dict.getOrDefault<Foam::word>("transportModel", "Newtonian");
+    if (model != "Newtonian")
+        failIn(dict, text("transportModel ", model, " is not modelled; allowed: Newtonian. Give a constant nu."));
+}
+
+void warnSurfaceTension(double sigma)
+{
+    Foam::Info << "Warning: surface tension sigma = " << sigma << " N/m is ignored: not modelled "
+               << "(negligible when waves and bodies are much larger than some millimetres)" << Foam::nl;
+}
+
+void readTwoFluids(const Foam::dictionary& transport, CaseControls& controls)
+{
+    const Foam::wordList phases = transport.get<Foam::wordList>("phases");
+    if (phases.size() != 2)
+        failIn(transport, text("Entry 'phases' lists ", phases.size(), " names; give two: (liquid gas), the liquid first."));
+    FluidProperties& fluid = controls.fluid;
+    double* rho[2] = {&fluid.rhoLiquid, &fluid.rhoGas};
+    double* mu[2] = {&fluid.muLiquid, &fluid.muGas};
+    for (int i = 0; i < 2; ++i)
+    {
+        const Foam::dictionary& phase = transport.subDict(phases[i]);
+        checkNewtonian(phase);
+        *rho[i] = readDimensioned(phase, "rho", Foam::dimDensity);
+        *mu[i] = *rho[i]*readDimensioned(phase, "nu", Foam::dimViscosity);
+    }
+    if (fluid.rhoLiquid < fluid.rhoGas)
+        failIn(transport, text("The first of 'phases', ", phases[0], " (rho ", fluid.rhoLiquid, "), is lighter than ", phases[1],
+            " (rho ", fluid.rhoGas, "): list the liquid first, and set alpha.", phases[1], " accordingly."));
+    fluid.isTwoPhase = true;
+    controls.liquidName = phases[0];
+    controls.alphaName = "alpha." + phases[0];
+    fluid.sigma = Foam::dimensionedScalar("sigma", Foam::dimensionSet(1, 0, -2, 0, 0), 0.0, transport).value();
+    if (fluid.sigma != 0) warnSurfaceTension(fluid.sigma);
+}
+
+void readOneFluid(const Foam::dictionary& transport, CaseControls& controls)
+{
+    checkNewtonian(transport);
+    if (!transport.found("nu"))
+        failIn(transport, "Neither 'phases' nor 'nu' is given: use 'phases (water air)' with their sub-dictionaries (as interFoam), "
+            "or 'nu' and 'rho' of a single fluid.");
+    FluidProperties& fluid = controls.fluid;
+    controls.hasDensity = transport.found("rho");
+    fluid.rhoLiquid = controls.hasDensity ? readDimensioned(transport, "rho", Foam::dimDensity) : 1;
+    fluid.muLiquid = fluid.rhoLiquid*readDimensioned(transport, "nu", Foam::dimViscosity);
+    fluid.isTwoPhase = false;
+    fluid.rhoGas = fluid.rhoLiquid;
+    fluid.muGas = fluid.muLiquid;
+    if (!controls.hasDensity)
+        Foam::Info << "transportProperties gives no rho: density 1 kg/m^3, pressures are kinematic (as icoFoam)" << Foam::nl;
+}
+
+Foam::IOobject inputFile(const Foam::Time& runTime, const char* name, const Foam::fileName& folder)
+{
+    return Foam::IOobject(name, folder, runTime, Foam::IOobject::MUST_READ, Foam::IOobject::NO_WRITE, false);
+}
+
+bool exists(const Foam::Time& runTime, const char* name)
+{
+    return Foam::isFile(runTime.path()/runTime.caseConstant()/name) || Foam::isFile(runTime.path()/runTime.constant()/name);
+}
+
+void readGravity(const Foam::Time& runTime, CaseControls& controls)
+{
+    if (!exists(runTime, "g"))
+    {
+        if (controls.fluid.isTwoPhase)
+            FatalErrorInFunction << "File " << runTime.path()/runTime.constant()/"g" << " is missing: two fluids need gravity." << Foam::nl
+                << "    Give it as interFoam does: dimensions [0 1 -2 0 0 0 0]; value (0 0 -9.81);" << Foam::exit(Foam::FatalError);
+        return;
+    }
+    const Foam::vector g = Foam::uniformDimensionedVectorField(inputFile(runTime, "g", runTime.constant())).value();
+    controls.fluid.gravity = {g.x(), g.y(), g.z()};
+    if (!exists(runTime, "hRef")) return;
+    const double hRef = Foam::uniformDimensionedScalarField(inputFile(runTime, "hRef", runTime.constant())).value();
+    controls.gravityPotentialRef = -Foam::mag(g)*hRef;
+}
+
+double readReferencePressure(const Foam::dictionary& fvSolution)
+{
+    for (const char* algorithm : {"PIMPLE", "PISO", "SIMPLE"})
+        if (fvSolution.found(algorithm)) return fvSolution.subDict(algorithm).getOrDefault<Foam::scalar>("pRefValue", 0);
+    return 0;
+}
+
+} // namespace
+
+void readTransport(const Foam::dictionary& transport, CaseControls& controls)
+{
+    transport.found("phases") ? readTwoFluids(transport, controls) : readOneFluid(transport, controls);
+}
+
+void checkLaminar(const Foam::dictionary& turbulence)
+{
+    const Foam::word type = turbulence.getOrDefault<Foam::word>("simulationType", "laminar");
+    if (type != "laminar")
+        failIn(turbulence, text("simulationType ", type, " is not modelled; allowed: laminar.\n    flotsamFoam has no turbulence model: the "
+            "stabilised method acts as an implicit large-eddy model on what the mesh resolves. Set 'simulationType laminar;'."));
+    if (!turbulence.found("laminar")) return;
+    const Foam::dictionary& laminar = turbulence.subDict("laminar");
+    const Foam::word model = laminar.getOrDefault<Foam::word>("laminarModel", laminar.getOrDefault<Foam::word>("model", "Stokes"));
+    if (model != "Stokes") failIn(laminar, text("laminarModel ", model, " is not modelled; allowed: Stokes."));
+}
+
+NumericsControls readNumerics(const Foam::dictionary& fvSolution)
+{
+    NumericsControls numerics;
+    if (!fvSolution.found("flotsam")) return numerics;
+    const Foam::dictionary& dict = fvSolution.subDict("flotsam");
+    std::vector<std::string> known;
+    for (const auto& entry : controlsTable()) known.push_back(entry.keyword);
+    checkKeywords(dict, known);
+    for (const auto& entry : controlsTable()) readEntry(dict, entry, numerics);
+    return numerics;
+}
+
+TimeControls readTimeControls(const Foam::dictionary& controlDict)
+{
+    TimeControls time;
+    time.adjustTimeStep = controlDict.getOrDefault<bool>("adjustTimeStep", false);
+    time.deltaT = readNumber(controlDict, "deltaT", positive);
+    time.maxCo = readNumberOr(controlDict, "maxCo", time.maxCo, positive);
+    time.maxCo = std::min(time.maxCo, readNumberOr(controlDict, "maxAlphaCo", time.maxCo, positive));
+    time.maxBodyCo = readNumberOr(controlDict, "maxBodyCo", time.maxBodyCo, positive);
+    time.maxDeltaT = readNumberOr(controlDict, "maxDeltaT", time.maxDeltaT, positive);
+    time.minDeltaT = readNumberOr(controlDict, "minDeltaT", time.minDeltaT, positive);
+    if (time.minDeltaT > time.maxDeltaT)
+        failIn(controlDict, text("minDeltaT ", time.minDeltaT, " is larger than maxDeltaT ", time.maxDeltaT, "."));
+    return time;
+}
+
+CaseControls readCaseControls(const Foam::Time& runTime)
+{
+    CaseControls controls;
+    readTransport(Foam::IOdictionary(inputFile(runTime, "transportProperties", runTime.constant())), controls);
+    if (exists(runTime, "turbulenceProperties"))
+        checkLaminar(Foam::IOdictionary(inputFile(runTime, "turbulenceProperties", runTime.constant())));
+    readGravity(runTime, controls);
+    const Foam::IOdictionary fvSolution(inputFile(runTime, "fvSolution", runTime.system()));
+    controls.numerics = readNumerics(fvSolution);
+    controls.pRefValue = readReferencePressure(fvSolution);
+    controls.time = readTimeControls(runTime.controlDict());
+    return controls;
+}
+
+void writeNumerics(Foam::Ostream& os, const NumericsControls& numerics)
+{
+    const NumericsControls byDefault;
+    os << "flotsam" << Foam::nl << "{" << Foam::nl;
+    for (const auto& entry : controlsTable())
+    {
+        const double value = numberOf(numerics, entry.member);
+        const bool isFlag = std::holds_alternative<bool NumericsControls::*>(entry.member);
+        std::string line = text("    ", entry.keyword, " ");
+        line.resize(std::max<std::size_t>(line.size(), 28), ' ');
+        line += isFlag ? (value != 0 ? "on;" : "off;") : text(value, ";");
+        line.resize(std::max<std::size_t>(line.size(), 40), ' ');
+        os << line.c_str() << " // " << entry.meaning;
+        if (value != numberOf(byDefault, entry.member))
+        {
+            const double d = numberOf(byDefault, entry.member);
+            os << " [default " << (isFlag ? (d != 0 ? std::string("on") : std::string("off")) : text(d)).c_str() << "]";
+        }
+        os << Foam::nl;
+    }
+    os << "}" << Foam::nl;
+}
+
+} // namespace flotsam

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "foam/dictionaryChecks.H"
+
+#include "error.H"
+
+#include <algorithm>
+#include <cctype>
+
+namespace flotsam
+{
+
+void failIn(const Foam::dictionary& dict, const std::string& message)
+{
+    FatalIOErrorInFunction(dict) << message << Foam::exit(Foam::FatalIOError);
+    throw std::logic_error(message); // never reached: exit() ends the run or throws
+}
+
+std::string toString(const Range& range)
+{
+    if (range.upper >= 1e300)
+        return text(range.withoutLower ? "larger than " : "at least ", range.lower);
+    return text(range.withoutLower ? "larger than " : "from ", range.lower, range.withoutLower ? ", at most " : " to ", range.upper);
+}
+
+namespace
+{
+char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& known)
+{
+    const auto near = nearestWords(word, known);
+    return near.empty() ? std::string() : text("\n    Did you mean: ", joined(near), " ?");
+}
+}
+
+int editDistance(const std::string& a, const std::string& b)
+{
+    // optimal string alignment: three rows of the usual table
+    const std::size_t n = b.size();
+    std::vector<int> older(n + 1), old(n + 1), now(n + 1);
+    for (std::size_t j = 0; j <= n; ++j) old[j] = static_cast<int>(j);
+    for (std::size_t i = 1; i <= a.size(); ++i)
+    {
+        now[0] = static_cast<int>(i);
+        for (std::size_t j = 1; j <= n; ++j)
+        {
+            const bool same = lower(a[i - 1]) == lower(b[j - 1]);
+            now[j] = std::min({old[j] + 1, now[j - 1] + 1, old[j - 1] + (same ? 0 : 1)});
+            if (i > 1 && j > 1 && lower(a[i - 1]) == lower(b[j - 2]) && lower(a[i - 2]) == lower(b[j - 1]))
+                now[j] = std::min(now[j], older[j - 2] + 1);
+        }
+        older.swap(old);
+        old.swap(now);
+    }
+    return old[n];
+}
+
+std::vector<std::string> nearestWords(const std::string& word, const std::vector<std::string>& known)
+{
+    std::vector<std::pair<int, std::string>> ranked;
+    for (const auto& k : known)
+    {
+        const int d = editDistance(word, k);
+        const bool isPart = word.size() >= 3 && (k.find(word) != std::string::npos || word.find(k) != std::string::npos);
+        if (isPart || d <= std::max<int>(2, static_cast<int>(std::max(word.size(), k.size())) / 3)) ranked.emplace_back(d, k);
+    }
+    std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<std::string> near;
+    for (std::size_t i = 0; i < ranked.size() && i < 3; ++i) near.push_back(ranked[i].second);
+    return near;
+}
+
+std::string joined(const std::vector<std::string>& words)
+{
+    std::string s;
+    for (const auto& w : words) s += (s.empty() ? "" : ", ") + w;
+    return s;
+}
+
+void failUnknown(const Foam::dictionary& dict, const std::string& what, const std::string& found, const std::vector<std::string>& known)
+{
+    failIn(dict, text("Unknown ", what, " '", found, "'.", suggestion(found, known), "\n    Known: ", joined(known)));
+}
+
+void checkKeywords(const Foam::dictionary& dict, const std::vector<std::string>& known)
+{
+    for (const Foam::entry& e : dict)
+    {
+        const std::string keyword(e.keyword());
+        if (keyword != "FoamFile" && std::find(known.begin(), known.end(), keyword) == known.end())
+            failUnknown(dict, "keyword", keyword, known);
+    }
+}
+
+void checkRange(const Foam::dictionary& dict, const std::string& keyword, double value, const Range& range, const std::string& hint)
+{
+    if (!range.contains(value))
+        failIn(dict, text("Entry '", keyword, "' is ", value, ": it must be ", toString(range), ".", hint.empty() ? "" : "\n    ", hint));
+}
+
+double readNumber(const Foam::dictionary& dict, const std::string& keyword, const Range& range, const std::string& hint)
+{
+    const double value = dict.get<Foam::scalar>(keyword);
+    checkRange(dict, keyword, value, range, hint);
+    return value;
+}
+
+double readNumberOr(const Foam::dictionary& dict, const std::string& keyword, double byDefault, const Range& range, const std::string& hint)
+{
+    return dict.found(keyword, Foam::keyType::LITERAL) ? readNumber(dict, keyword, range, hint) : byDefault;
+}
+
+int readCountOr(const Foam::dictionary& dict, const std::string& keyword, int byDefault, const Range& range, const std::string& hint)
+{
+    if (!dict.found(keyword, Foam::keyType::LITERAL)) return byDefault;
+    const int value = dict.get<Foam::label>(keyword);
+    checkRange(dict, keyword, value, range, hint);
+    return value;
+}
+
+} // namespace flotsam

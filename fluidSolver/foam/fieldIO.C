@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "foam/fieldIO.H"
+#include "foam/boundaryReader.H"
+#include "foam/dictionaryChecks.H"
+
+#include "Time.H"
+#include "pointMesh.H"
+
+namespace flotsam
+{
+
+namespace
+{
+
+constexpr int nodalWidth = 6;
+enum Component { Ux, Uy, Uz, P, Prgh, Alpha };
+
+Foam::IOobject inputField(const Foam::fvMesh& mesh, const Foam::word& name)
+{
+    return Foam::IOobject(name, mesh.time().timeName(), mesh, Foam::IOobject::MUST_READ, Foam::IOobject::AUTO_WRITE);
+}
+
+template<class Field, class Mesh>
+std::unique_ptr<Field> newField(const Foam::fvMesh& db, const Mesh& mesh, const Foam::word& name, const Foam::dimensionSet& dims)
+{
+    using Type = typename Field::value_type;
+    const Foam::IOobject io(name, db.time().timeName(), db, Foam::IOobject::NO_READ, Foam::IOobject::AUTO_WRITE);
+    return std::make_unique<Field>(io, mesh, Foam::dimensioned<Type>(name, dims, Foam::pTraits<Type>::zero));
+}
+
+/// Cell values -> nodes: mean over the simplices around a node, weighted with their volumes.
+class CellsToNodes
+{
+public:
+    CellsToNodes(const MeshAdapter& adapter, const Halo& halo) : adapter_(adapter), halo_(halo) {}
+
+    template<class CellValue>
+    std::vector<double> operator()(CellValue cellValue) const
+    {
+        const SimplexMesh& mesh = adapter_.mesh;
+        const int nCells = adapter_.cellStart.size() - 1;
+        // deviations from a value that all ranks share: uniform fields come out exactly
+        const double reference = halo_.max(nCells > 0 ? cellValue(0) : -1e300);
+        std::vector<double> sum(2*static_cast<std::size_t>(mesh.nNodes), 0.0);
+        for (int c = 0; c < nCells; ++c)
+            for (int k = adapter_.cellStart[c]; k < adapter_.cellStart[c + 1]; ++k)
+            {
+                const int e = adapter_.cellElements[k];
+                for (int a = 0; a <= mesh.dim; ++a)
+                {
+                    double* s = &sum[2*static_cast<std::size_t>(mesh.elements[e*(mesh.dim + 1) + a])];
+                    s[0] += mesh.volume[e]*(cellValue(c) - reference);
+                    s[1] += mesh.volume[e];
+                }
+            }
+        halo_.sumToOwners(sum, 2);
+        halo_.update(sum, 2);
+        std::vector<double> nodal(mesh.nNodes);
+        for (int i = 0; i < mesh.nNodes; ++i) nodal[i] = reference + sum[2*i]/sum[2*i + 1];
+        return nodal;
+    }
+
+private:
+    const MeshAdapter& adapter_;
+    const Halo& halo_;
+};
+
+/// Means of the nodal values over the fluid part of the simplices of a cell; over all of it where no fluid is.
+void cellMean(const MeshAdapter& adapter, const Cover* cover, const std::vector<double>& nodal, int cell, double* mean)
+{
+    const SimplexMesh& mesh = adapter.mesh;
+    const int n = mesh.dim + 1;
+    for (const bool fluidOnly : {true, false})
+    {
+        double volume = 0;
+        std::fill_n(mean, nodalWidth, 0.0);
+        for (int k = adapter.cellStart[cell]; k < adapter.cellStart[cell + 1]; ++k)
+        {
+            const int e = adapter.cellElements[k];
+            const ElementState state = cover && fluidOnly ? cover->state[e] : ElementState::Fluid;
+            if (state == ElementState::Solid) continue;
+            const CutElement* cut = state == ElementState::Cut ? &cover->cuts[cover->cutIndex[e]] : nullptr;
+            volume += cut ? cut->volume : mesh.volume[e];
+            for (int a = 0; a < n; ++a)
+            {
+                const double weight = cut ? cut->first[a] : mesh.volume[e]/n;
+                const double* v = &nodal[static_cast<std::size_t>(mesh.elements[e*n + a])*nodalWidth];
+                for (int j = 0; j < nodalWidth; ++j) mean[j] += weight*v[j];
+            }
+        }
+        if (volume <= 0) continue;
+        for (int j = 0; j < nodalWidth; ++j) mean[j] /= volume;
+        return;
+    }
+}
+
+/// Patch values are set without evaluating conditions; only coupled (processor) patches exchange their cells' values.
+template<class Field, class FaceValue>
+void assignPatches(Field& field, FaceValue faceValue)
+{
+    using Type = typename Field::value_type;
+    auto& boundary = field.boundaryFieldRef();
+    const Foam::label firstRequest = Foam::Pstream::nRequests();
+    forAll(boundary, i)
+    {
+        if (boundary[i].coupled())
+        {
+            boundary[i].initEvaluate(Foam::Pstream::commsTypes::nonBlocking);
+            continue;
+        }
+        Foam::Field<Type> values(boundary[i].size());
+        const Foam::polyPatch& patch = boundary[i].patch().patch();
+        forAll(values, f) values[f] = faceValue(patch[f]);
+        boundary[i] == values;
+    }
+    if (Foam::Pstream::parRun()) Foam::Pstream::waitRequests(firstRequest);
+    forAll(boundary, i)
+        if (boundary[i].coupled()) boundary[i].evaluate(Foam::Pstream::commsTypes::nonBlocking);
+}
+
+} // namespace
+
+FoamFields::FoamFields(const Foam::fvMesh& mesh, const MeshAdapter& adapter, const Halo& halo, const CaseControls& controls)
+:
+    mesh_(mesh), adapter_(adapter), halo_(halo), controls_(controls), velocity_(inputField(mesh, "U"), mesh)
+{
+    const std::string pressureName = pressureFieldName(mesh, controls);
+    auto read = std::make_unique<Foam::volScalarField>(inputField(mesh, pressureName), mesh);
+    if (read->dimensions() != Foam::dimPressure) pressureScale_ = controls.fluid.rhoLiquid;
+    const Foam::dimensionSet dims = read->dimensions();
+    if (pressureName == "p") pressure_ = std::move(read);
+    else
+    {
+        pressureRgh_ = std::move(read);
+        pressure_ = newField<Foam::volScalarField>(mesh, mesh, "p", dims);
+    }
+    const Foam::pointMesh& points = Foam::pointMesh::New(mesh);
+    pointU_ = newField<Foam::pointVectorField>(mesh, points, "pointU", Foam::dimVelocity);
+    pointP_ = newField<Foam::pointScalarField>(mesh, points, "pointP", dims);
+    if (!controls.fluid.isTwoPhase) return;
+    alpha_ = std::make_unique<Foam::volScalarField>(inputField(mesh, controls.alphaName), mesh);
+    pointAlpha_ = newField<Foam::pointScalarField>(mesh, points, "pointAlpha", Foam::dimless);
+}
+
+void FoamFields::readStart(FlowState& state) const
+{
+    const SimplexMesh& mesh = adapter_.mesh;
+    const CellsToNodes toNodes(adapter_, halo_);
+    state.time = mesh_.time().value();
+    state.u.assign(static_cast<std::size_t>(mesh.nNodes)*mesh.dim, 0.0);
+    for (int d = 0; d < mesh.dim; ++d)
+    {
+        const auto u = toNodes([&](int c) { return velocity_[c][mesh.axes[d]]; });
+        for (int i = 0; i < mesh.nNodes; ++i) state.u[i*mesh.dim + d] = u[i];
+    }
+    state.alpha = alpha_ ? toNodes([&](int c) { return (*alpha_)[c]; }) : std::vector<double>(mesh.nNodes, 1.0);
+    const Foam::volScalarField& pressure = pressureRgh_ ? *pressureRgh_ : *pressure_;
+    state.p = toNodes([&](int c) { return pressure[c]*pressureScale_; });
+    if (!pressureRgh_) return;
+    for (int i = 0; i < mesh.nNodes; ++i)
+        state.p[i] += densityAt(controls_.fluid, state.alpha[i])*gravityPotential(controls_, mesh, i);
+}
+
+bool FoamFields::isNeeded() const
+{
+    return mesh_.time().writeTime() || !mesh_.time().functionObjects().empty();
+}
+
+void FoamFields::update(const FlowState& state, const Cover* cover, const std::vector<Solid>& solids)
+{
+    updateNodal(state, cover, solids);
+    updateCells(cover);
+    updatePatches();
+    updatePointFields();
+    if (cover) updateSolidFraction(*cover);
+}
+
+void FoamFields::updateNodal(const FlowState& state, const Cover* cover, const std::vector<Solid>& solids)
+{
+    const SimplexMesh& mesh = adapter_.mesh;
+    nodal_.assign(static_cast<std::size_t>(mesh.nNodes)*nodalWidth, 0.0);
+    for (int i = 0; i < mesh.nNodes; ++i)
+    {
+        double* v = &nodal_[static_cast<std::size_t>(i)*nodalWidth];
+        for (int d = 0; d < mesh.dim; ++d) v[Ux + mesh.axes[d]] = state.u[i*mesh.dim + d];
+        const bool isInSolid = cover && !cover->isActiveNode[i] && cover->nearestSolid[i] >= 0;
+        if (isInSolid)
+        {
+            const auto x = mesh.spacePoint(i);
+            const Vec3 u = solids[cover->nearestSolid[i]].velocityAt(Vec3(x[0], x[1], x[2]));
+            for (int d = 0; d < mesh.dim; ++d) v[Ux + mesh.axes[d]] = u[mesh.axes[d]];
+        }
+        v[Alpha] = state.alpha.empty() ? 1 : state.alpha[i];
+        const double rho = controls_.fluid.isTwoPhase ? densityAt(controls_.fluid, v[Alpha]) : controls_.fluid.rhoLiquid;
+        v[P] = state.p[i]/pressureScale_;
+        v[Prgh] = (state.p[i] - rho*gravityPotential(controls_, mesh, i))/pressureScale_;
+    }
+}
+
+void FoamFields::updateCells(const Cover* cover)
+{
+    double mean[nodalWidth];
+    const Foam::label nCells = mesh_.nCells();
+    for (Foam::label c = 0; c < nCells; ++c)
+    {
+        cellMean(adapter_, cover, nodal_, c, mean);
+        velocity_[c] = Foam::vector(mean[Ux], mean[Uy], mean[Uz]);
+        (*pressure_)[c] = mean[P];
+        if (pressureRgh_) (*pressureRgh_)[c] = mean[Prgh];
+        if (alpha_) (*alpha_)[c] = mean[Alpha];
+    }
+}
+
+void FoamFields::updateSolidFraction(const Cover& cover)
+{
+    if (!solid_) solid_ = newField<Foam::volScalarField>(mesh_, mesh_, "solid", Foam::dimless);
+    for (Foam::label c = 0; c < mesh_.nCells(); ++c)
+    {
+        double fluid = 0, whole = 0;
+        for (int k = adapter_.cellStart[c]; k < adapter_.cellStart[c + 1]; ++k)
+        {
+            const int e = adapter_.cellElements[k];
+            whole += adapter_.mesh.volume[e];
+            if (cover.state[e] == ElementState::Fluid) fluid += adapter_.mesh.volume[e];
+            else if (cover.state[e] == ElementState::Cut) fluid += cover.cuts[cover.cutIndex[e]].volume;
+        }
+        (*solid_)[c] = std::max(0.0, 1 - fluid/whole);
+    }
+    // the patch value of a cell fraction is its cell's: the derived patch fields are calculated
+    auto& boundary = solid_->boundaryFieldRef();
+    forAll(boundary, i)
+        if (!boundary[i].coupled()) boundary[i] == boundary[i].patchInternalField()();
+    if (Foam::Pstream::parRun()) solid_->correctBoundaryConditions(); // no user conditions here: processor patches only
+}
+
+void FoamFields::updatePatches()
+{
+    const auto mean = [&](const Foam::face& face, int component)
+    {
+        double sum = 0;
+        for (const Foam::label point : face)
+            sum += nodal_[static_cast<std::size_t>(adapter_.pointNode[point])*nodalWidth + component];
+        return sum/face.size();
+    };
+    assignPatches(velocity_, [&](const Foam::face& f) { return Foam::vector(mean(f, Ux), mean(f, Uy), mean(f, Uz)); });
+    assignPatches(*pressure_, [&](const Foam::face& f) { return mean(f, P); });
+    if (pressureRgh_) assignPatches(*pressureRgh_, [&](const Foam::face& f) { return mean(f, Prgh); });
+    if (alpha_) assignPatches(*alpha_, [&](const Foam::face& f) { return mean(f, Alpha); });
+}
+
+void FoamFields::updatePointFields()
+{
+    forAll(adapter_.pointNode, point)
+    {
+        const double* v = &nodal_[static_cast<std::size_t>(adapter_.pointNode[point])*nodalWidth];
+        (*pointU_)[point] = Foam::vector(v[Ux], v[Uy], v[Uz]);
+        (*pointP_)[point] = v[P];
+        if (pointAlpha_) (*pointAlpha_)[point] = v[Alpha];
+    }
+}
+
+} // namespace flotsam

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The physical cover: which part of every element of the mathematical mesh is fluid, at one time.
+/// Marking (states, active nodes, ghost faces), integrating (moments, facet points) and assembling are kept apart;
+/// this file is the result of the first two.
+#pragma once
+
+#include "algebra/halo.hpp"
+#include "core/nodeGraph.hpp"
+#include "geometry/solid.hpp"
+
+namespace flotsam
+{
+
+enum class ElementState : unsigned char { Fluid, Cut, Solid };
+
+/// Exact integrals of products of P1 functions over the fluid part of a cut element (linear distance).
+struct CutElement
+{
+    int element;
+    double volume;      ///< fluid volume [m^dim], > 0
+    double first[4];    ///< int N_a
+    double second[16];  ///< int N_a N_b at [a*(dim+1)+b]
+    int facetStart, facetEnd;   ///< its facets
+};
+
+/// A planar piece of a solid's surface inside one element, with its quadrature points (exact for degree 2).
+struct CutFacet
+{
+    int element;
+    int solid;          ///< index in the list of solids: nearest at the facet's centroid
+    double area;        ///< [m^(dim-1)]
+    double normal[3];   ///< unit, OUT of the fluid (into the solid), in-plane components
+    int nPoints;        ///< 2 (edge in 2D, Gauss) or 3 (triangle in 3D)
+    double weight[3];   ///< sum = area
+    double shape[3][4]; ///< shape functions of the element at the points
+};
+
+/// Interior face of two active elements of which at least one is cut.
+struct GhostFace { int face; double area; double normal[3]; /* from element[0] to element[1] */ };
+
+/// Distance at nodes that no solid is near to [m].
+constexpr double farDistance = 1e30;
+
+struct Cover
+{
+    std::vector<double> distance;       ///< nNodes: signed distance to the nearest solid [m], negative inside, never 0; farDistance far away
+    std::vector<int> nearestSolid;      ///< nNodes: index of that solid, -1 far away
+    std::vector<ElementState> state;    ///< nElements
+    std::vector<int> cutIndex;          ///< nElements: position in `cuts`, -1 if not cut
+    std::vector<CutElement> cuts;
+    std::vector<CutFacet> facets;       ///< a 3D quadrilateral cut is two facets
+    std::vector<GhostFace> ghostFaces;
+    std::vector<char> isActiveNode;     ///< nNodes: some element with a fluid part holds the node
+    std::vector<double> solidVolume;    ///< per solid: sum over owned elements of the part it cuts out, all ranks [m^dim]
+    std::vector<double> solidArea;      ///< per solid: wetted surface of the cut, all ranks [m^(dim-1)]
+    long nSharedElements = 0;           ///< cut elements with nodes in two different solids (gap below the mesh), owned, all ranks
+};
+
+/// Cuts the mesh with the solids once, see CoverBuilder. Collective.
+Cover cutMesh(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const std::vector<Solid>& solids);
+
+/// CoverBuilder::buildExactVolume once: one Newton step on the offset of every free solid.
+Cover cutMeshWithExactVolume(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, std::vector<Solid>& solids);
+
+} // namespace flotsam

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Shapes of structures and bodies: ONE definition for the fluid (signed distance), the DEM (surface spheres,
+/// mass, inertia), the output (triangulated surface) and the statistics.
+#pragma once
+
+#include <Eigen/Dense>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace flotsam
+{
+
+using Vec3 = Eigen::Vector3d;
+
+/// Integrals over a solid of density 1, in the frame in which the shape is given.
+struct VolumeMoments
+{
+    double volume = 0;                              ///< [m^3]
+    Vec3 centroid = Vec3::Zero();                   ///< [m]
+    Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero(); ///< about the centroid, density 1 [m^5]
+};
+
+/// Closed triangulated surface, outward normals by the right-hand rule.
+struct TriSurface
+{
+    std::vector<Vec3> points;
+    std::vector<std::array<int, 3>> triangles;
+};
+
+/// A closed shape in its own frame. Immutable, safe to share.
+class Shape
+{
+public:
+    virtual ~Shape() = default;
+
+    /// Signed distance [m], negative inside. Exact for the primitives; for unions the minimum.
+    virtual double distance(const Vec3& x) const = 0;
+
+    /// Axis-aligned bounding box {lower, upper} in the shape's frame [m].
+    virtual std::array<Vec3, 2> bounds() const = 0;
+
+    /// Exact for box, cylinder, sphere, capsule, closed STL; for overlapping unions by fine sampling (says so in its source).
+    virtual VolumeMoments moments() const = 0;
+
+    /// Triangulated surface; curved shapes with facets no longer than `size` [m].
+    virtual TriSurface surface(double size) const = 0;
+};
+
+/// Sphere of the DEM model, in the shape's frame [m].
+struct SurfaceSphere { Vec3 centre; double radius; };
+
+/// Spheres of radius `radius` whose surfaces touch the shape's surface from inside, neighbouring centres at most
+/// `spacing` apart, on the surface only (paper: "placed on the body's surface only"). The radius is reduced where
+/// the shape is thinner than 2*radius. A Sphere shape gives one sphere of its own radius.
+std::vector<SurfaceSphere> surfaceSpheres(const Shape& shape, double radius, double spacing);
+
+std::shared_ptr<const Shape> makeBox(const Vec3& centre, const Vec3& size);
+std::shared_ptr<const Shape> makeSphere(const Vec3& centre, double radius);
+std::shared_ptr<const Shape> makeCylinder(const Vec3& end1, const Vec3& end2, double radius);
+std::shared_ptr<const Shape> makeCapsule(const Vec3& end1, const Vec3& end2, double radius);
+/// Reads ASCII or binary STL. Throws std::runtime_error naming the file and the first open or non-manifold edge.
+std::shared_ptr<const Shape> makeStl(const std::string& file, double scale = 1);
+std::shared_ptr<const Shape> makeUnion(std::vector<std::shared_ptr<const Shape>> parts);
+/// `shape` moved by x -> rotation*x + translation.
+std::shared_ptr<const Shape> makePlaced(std::shared_ptr<const Shape> shape, const Eigen::Quaterniond& rotation, const Vec3& translation);
+
+} // namespace flotsam

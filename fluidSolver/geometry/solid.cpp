@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/solid.hpp"
+
+namespace flotsam
+{
+
+std::array<Vec3, 2> Solid::spaceBounds() const
+{
+    const auto [lower, upper] = shape->bounds();
+    const Eigen::Matrix3d rotation = pose.orientation.toRotationMatrix();
+    const Vec3 centre = pose.position + rotation * (0.5 * (lower + upper));
+    const Vec3 half = (rotation.cwiseAbs() * (0.5 * (upper - lower))).array() + offset;
+    return {Vec3(centre - half), Vec3(centre + half)};
+}
+
+} // namespace flotsam

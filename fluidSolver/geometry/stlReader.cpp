@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/stlReader.hpp"
+
+#include "geometry/triSurface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <stdexcept>
+#include <unordered_map>
+
+namespace flotsam
+{
+namespace
+{
+
+/// Three corners per triangle, as in the file.
+using Corners = std::vector<Vec3>;
+
+[[noreturn]] void fail(const std::string& file, const std::string& what)
+{
+    throw std::runtime_error("STL file \"" + file + "\": " + what);
+}
+
+std::string text(const Vec3& x)
+{
+    std::ostringstream s;
+    s.precision(9);
+    s << '(' << x[0] << ' ' << x[1] << ' ' << x[2] << ')';
+    return s.str();
+}
+
+constexpr std::size_t binaryHeader = 84, binaryTriangle = 50;
+
+bool isBinary(const std::string& data)
+{
+    if (data.size() < binaryHeader) return false;
+    std::uint32_t n = 0;
+    std::memcpy(&n, data.data() + 80, 4);
+    return data.size() == binaryHeader + binaryTriangle * n;
+}
+
+Corners readBinary(const std::string& data)
+{
+    Corners corners;
+    for (std::size_t at = binaryHeader; at + binaryTriangle <= data.size(); at += binaryTriangle)
+    {
+        float values[9];
+        std::memcpy(values, data.data() + at + 12, sizeof values); // 12 bytes of normal first
+        for (int i = 0; i < 3; ++i) corners.emplace_back(values[3 * i], values[3 * i + 1], values[3 * i + 2]);
+    }
+    return corners;
+}
+
+Corners readAscii(const std::string& file, const std::string& data)
+{
+    std::istringstream in(data);
+    std::string word;
+    if (!(in >> word) || word != "solid")
+        fail(file, "neither binary (its length does not fit the number of triangles) nor ASCII (it does not start with 'solid')");
+    Corners corners;
+    while (in >> word)
+    {
+        if (word != "vertex") continue;
+        double x[3];
+        if (!(in >> x[0] >> x[1] >> x[2])) fail(file, "vertex number " + std::to_string(corners.size() + 1) + " is not three numbers");
+        corners.emplace_back(x[0], x[1], x[2]);
+    }
+    if (corners.size() % 3 != 0) fail(file, "found " + std::to_string(corners.size()) + " vertices, not a multiple of 3");
+    return corners;
+}
+
+Corners readCorners(const std::string& file)
+{
+    std::ifstream in(file, std::ios::binary);
+    if (!in) fail(file, "cannot be opened");
+    const std::string data((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+    Corners corners = isBinary(data) ? readBinary(data) : readAscii(file, data);
+    if (corners.empty()) fail(file, "holds no triangles");
+    for (const Vec3& x : corners)
+        if (!x.allFinite()) fail(file, "holds a vertex that is not a finite number");
+    return corners;
+}
+
+/// Numbers points; points closer than the tolerance get the same number. A grid of cells finds them.
+class PointMerger
+{
+public:
+    explicit PointMerger(double tolerance) : tolerance_(tolerance) {}
+
+    int add(const Vec3& x, std::vector<Vec3>& points)
+    {
+        const Vec3 cell = (x / (4 * tolerance_)).array().floor();
+        for (int k = 0; k < 27; ++k)
+        {
+            const auto found = cells_.find(key(cell + Vec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1)));
+            if (found == cells_.end()) continue;
+            for (int i : found->second)
+                if ((points[i] - x).norm() <= tolerance_) return i;
+        }
+        const int i = static_cast<int>(points.size());
+        cells_[key(cell)].push_back(i);
+        points.push_back(x);
+        return i;
+    }
+
+private:
+    static std::uint64_t key(const Vec3& cell)
+    {
+        std::uint64_t k = 0; // collisions only cost time: the distance decides
+        for (int d = 0; d < 3; ++d) k = (k ^ static_cast<std::uint64_t>(std::llround(cell[d]))) * 0x9E3779B97F4A7C15ull;
+        return k;
+    }
+
+    double tolerance_;
+    std::unordered_map<std::uint64_t, std::vector<int>> cells_;
+};
+
+TriSurface merge(const Corners& corners)
+{
+    Vec3 lower = corners[0], upper = corners[0];
+    for (const Vec3& x : corners)
+    {
+        lower = lower.cwiseMin(x);
+        upper = upper.cwiseMax(x);
+    }
+    TriSurface s;
+    PointMerger merger(1e-7 * std::max((upper - lower).norm(), 1e-300));
+    for (std::size_t i = 0; i < corners.size(); i += 3)
+    {
+        std::array<int, 3> t;
+        for (int k = 0; k < 3; ++k) t[k] = merger.add(corners[i + k] - lower, s.points); // small numbers in the grid
+        if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) s.triangles.push_back(t);
+    }
+    for (Vec3& x : s.points) x += lower;
+    return s;
+}
+
+/// Every directed edge once and its reverse once.
+void requireClosed(const std::string& file, const TriSurface& s)
+{
+    std::map<std::pair<int, int>, int> uses;
+    for (const auto& t : s.triangles)
+        for (int k = 0; k < 3; ++k) ++uses[{t[k], t[(k + 1) % 3]}];
+    for (const auto& t : s.triangles)
+        for (int k = 0; k < 3; ++k)
+        {
+            const int a = t[k], b = t[(k + 1) % 3];
+            const int forward = uses[{a, b}], backward = uses.count({b, a}) ? uses[{b, a}] : 0;
+            if (forward == 1 && backward == 1) continue;
+            const std::string edge = "the edge " + text(s.points[a]) + " - " + text(s.points[b]);
+            const std::string cure = "; a body needs a closed surface: check and repair it (surfaceCheck, surfaceOrient)";
+            if (forward + backward == 1) fail(file, "the surface is open: " + edge + " belongs to one triangle only" + cure);
+            if (forward + backward == 2) fail(file, edge + " lies between triangles of opposite orientation" + cure);
+            fail(file, edge + " belongs to " + std::to_string(forward + backward) + " triangles, wanted 2" + cure);
+        }
+}
+
+} // namespace
+
+TriSurface readClosedStl(const std::string& file, double scale)
+{
+    if (!(scale > 0)) fail(file, "scale must be positive, found " + std::to_string(scale));
+    TriSurface s = merge(readCorners(file));
+    for (Vec3& x : s.points) x *= scale;
+    requireClosed(file, s);
+    const double volume = enclosedMoments(s).volume;
+    if (volume == 0) fail(file, "the surface encloses no volume");
+    if (volume < 0)
+        for (auto& t : s.triangles) std::swap(t[1], t[2]);
+    return s;
+}
+
+} // namespace flotsam

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/primitives.hpp"
+#include "geometry/triSurface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace flotsam
+{
+namespace
+{
+
+using Spheres = std::vector<SurfaceSphere>;
+
+/// Equal parts of a length, none longer than `spacing` (1e-9: a length that is a multiple of it up to round-off).
+int parts(double length, double spacing) { return static_cast<int>(std::ceil(length / spacing * (1 - 1e-9))); }
+
+/// Rows of spheres on all faces: the boundary of a lattice.
+Spheres boxSpheres(const BoxShape& box, double radius, double spacing)
+{
+    const double r = std::min(radius, box.half().minCoeff());
+    const Vec3 inner = (box.half().array() - r).max(0.0);
+    int n[3];
+    for (int d = 0; d < 3; ++d) n[d] = parts(2 * inner[d], spacing);
+    auto at = [&](int i, int d) { return n[d] > 0 ? inner[d] * (2.0 * i / n[d] - 1) : 0; };
+    auto isEnd = [&](int i, int d) { return i == 0 || i == n[d]; };
+    Spheres spheres;
+    for (int k = 0; k <= n[2]; ++k)
+        for (int j = 0; j <= n[1]; ++j)
+            for (int i = 0; i <= n[0]; ++i)
+                if (isEnd(i, 0) || isEnd(j, 1) || isEnd(k, 2))
+                    spheres.push_back({box.centre() + Vec3(at(i, 0), at(j, 1), at(k, 2)), r});
+    return spheres;
+}
+
+/// Spheres on a ring about an axis, neighbours (along the chord) at most `spacing` apart.
+void addRing(Spheres& spheres, const Vec3& origin, const Vec3& axis, ProfilePoint p, double sphereRadius, double spacing)
+{
+    const Vec3 u = anyNormalTo(axis), v = axis.cross(u);
+    const double chordRatio = std::min(1.0, 0.5 * spacing / std::max(p.radius, 1e-300));
+    const int n = p.radius > 0 ? std::max(1, parts(M_PI, std::asin(chordRatio))) : 1;
+    for (int i = 0; i < n; ++i)
+    {
+        const double angle = 2 * M_PI * i / n;
+        spheres.push_back({origin + p.along * axis + p.radius * (std::cos(angle) * u + std::sin(angle) * v), sphereRadius});
+    }
+}
+
+/// Centres on the cylinder that lies `radius` inside.
+Spheres cylinderSpheres(const CylinderShape& c, double radius, double spacing)
+{
+    const double r = std::min({radius, c.radius(), c.halfLength()});
+    const double length = c.halfLength() - r, turn = c.radius() - r;
+    const int n = parts(2 * length, spacing), m = parts(turn, spacing);
+    Spheres spheres;
+    for (int i = 0; i <= n; ++i)
+    {
+        const double along = n > 0 ? length * (2.0 * i / n - 1) : 0;
+        addRing(spheres, c.centre(), c.axis(), {along, turn}, r, spacing);
+        for (int k = 0; k < m && (i == 0 || i == n); ++k) addRing(spheres, c.centre(), c.axis(), {along, turn * k / m}, r, spacing);
+    }
+    return spheres;
+}
+
+Spheres capsuleSpheres(const CapsuleShape& c, double radius, double spacing)
+{
+    const double r = std::min(radius, c.radius()), turn = c.radius() - r;
+    const int n = std::max(1, parts(2 * c.halfLength(), spacing)), m = parts(0.5 * M_PI * turn, spacing);
+    Spheres spheres;
+    for (int i = 0; i <= n; ++i)
+        addRing(spheres, c.centre(), c.axis(), {c.halfLength() * (2.0 * i / n - 1), turn}, r, spacing);
+    for (int k = 1; k <= m; ++k)
+        for (int side = -1; side <= 1; side += 2)
+        {
+            const double angle = 0.5 * M_PI * k / m, ring = k == m ? 0 : turn * std::cos(angle);
+            addRing(spheres, c.centre(), c.axis(), {side * (c.halfLength() + turn * std::sin(angle)), ring}, r, spacing);
+        }
+    return spheres;
+}
+
+Vec3 distanceGradient(const Shape& shape, const Vec3& x, double step)
+{
+    Vec3 g;
+    for (int d = 0; d < 3; ++d) g[d] = (shape.distance(x + step * Vec3::Unit(d)) - shape.distance(x - step * Vec3::Unit(d))) / (2 * step);
+    return g;
+}
+
+/// Newton steps to distance = -radius; false near the medial axis, where there may be no such point.
+bool pushInside(const Shape& shape, double radius, Vec3& x)
+{
+    for (int i = 0; i < 30; ++i)
+    {
+        const double defect = shape.distance(x) + radius;
+        if (std::abs(defect) < 1e-11 * radius) return true;
+        const Vec3 g = distanceGradient(shape, x, 1e-4 * radius);
+        if (g.squaredNorm() < 0.25) return false;
+        x -= defect / g.squaredNorm() * g;
+    }
+    return false;
+}
+
+/// Radius of the largest ball inside the shape that touches its surface at the point, up to `radius`.
+double ballRadius(const Shape& shape, const SurfacePoint& p, double radius)
+{
+    auto fits = [&](double t) { return shape.distance(p.x - t * p.normal) <= -t * (1 - 1e-9); };
+    if (fits(radius)) return radius;
+    double low = 0, high = radius;
+    for (int i = 0; i < 40; ++i) (fits(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+    return low;
+}
+
+/// Any shape: balls under a dense sampling of the surface, thinned in order. The thinning distance makes neighbours
+/// `spacing` apart at most in a triangular pattern.
+Spheres sampledSpheres(const Shape& shape, double radius, double spacing)
+{
+    const double thinning = 0.6 * spacing;
+    const std::vector<SurfacePoint> points = samplePoints(shape.surface(0.5 * spacing), 0.25 * spacing);
+    double thickest = 0;
+    for (const SurfacePoint& p : points) thickest = std::max(thickest, ballRadius(shape, p, radius));
+    const double r = std::min(radius, thickest * (1 - 1e-6));
+    Spheres spheres;
+    for (const SurfacePoint& p : points)
+    {
+        SurfaceSphere s{p.x - r * p.normal, r};
+        if (!pushInside(shape, r, s.centre))
+        {
+            // thinner than the sphere here: the largest one that fits, unless it is a mere crumb at an edge
+            s.radius = ballRadius(shape, p, r);
+            if (s.radius < 0.5 * r) continue;
+            s.centre = p.x - s.radius * p.normal;
+            s.radius = -shape.distance(s.centre);
+        }
+        const bool isNew = std::none_of(spheres.begin(), spheres.end(),
+            [&](const SurfaceSphere& other) { return (other.centre - s.centre).squaredNorm() < thinning * thinning; });
+        if (isNew) spheres.push_back(s);
+    }
+    return spheres;
+}
+
+/// The parts' spheres without those that do not reach the common surface.
+Spheres unionSpheres(const UnionShape& shape, double radius, double spacing)
+{
+    Spheres all;
+    for (const auto& part : shape.parts())
+        for (const SurfaceSphere& s : surfaceSpheres(*part, radius, spacing))
+        {
+            const bool isAtSurface = shape.distance(s.centre) > -s.radius * (1 + 1e-9);
+            const bool isNew = std::none_of(all.begin(), all.end(),
+                [&](const SurfaceSphere& other) { return (other.centre - s.centre).norm() < 1e-6 * spacing; });
+            if (isAtSurface && isNew) all.push_back(s);
+        }
+    return all;
+}
+
+} // namespace
+
+std::vector<SurfaceSphere> surfaceSpheres(const Shape& shape, double radius, double spacing)
+{
+    if (!(radius > 0) || !(spacing > 0))
+        throw std::runtime_error("surface spheres need a positive radius and spacing, found " + std::to_string(radius) + " and "
+                                 + std::to_string(spacing));
+    if (const auto* sphere = dynamic_cast<const SphereShape*>(&shape)) return {{sphere->centre(), sphere->radius()}};
+    if (const auto* box = dynamic_cast<const BoxShape*>(&shape)) return boxSpheres(*box, radius, spacing);
+    if (const auto* cylinder = dynamic_cast<const CylinderShape*>(&shape)) return cylinderSpheres(*cylinder, radius, spacing);
+    if (const auto* capsule = dynamic_cast<const CapsuleShape*>(&shape)) return capsuleSpheres(*capsule, radius, spacing);
+    if (const auto* joined = dynamic_cast<const UnionShape*>(&shape)) return unionSpheres(*joined, radius, spacing);
+    if (const auto* placed = dynamic_cast<const PlacedShape*>(&shape))
+    {
+        Spheres spheres = surfaceSpheres(placed->inner(), radius, spacing);
+        for (SurfaceSphere& s : spheres) s.centre = placed->toOuter(s.centre);
+        return spheres;
+    }
+    return sampledSpheres(shape, radius, spacing);
+}
+
+} // namespace flotsam

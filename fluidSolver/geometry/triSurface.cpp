@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/triSurface.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flotsam
+{
+
+VolumeMoments enclosedMoments(const TriSurface& surface)
+{
+    VolumeMoments m;
+    if (surface.points.empty()) return m;
+    const Vec3 origin = surface.points[0]; // near the surface: no cancellation for bodies far from the frame's origin
+    Vec3 first = Vec3::Zero();
+    Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+    for (const auto& t : surface.triangles)
+    {
+        const Vec3 a = surface.points[t[0]] - origin, b = surface.points[t[1]] - origin, c = surface.points[t[2]] - origin;
+        const double v = a.dot(b.cross(c)) / 6;
+        const Vec3 s = a + b + c;
+        m.volume += v;
+        first += v / 4 * s;
+        second += v / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + s * s.transpose());
+    }
+    if (m.volume == 0) return m;
+    const Vec3 r = first / m.volume;
+    second -= m.volume * r * r.transpose();
+    m.centroid = origin + r;
+    m.inertia = second.trace() * Eigen::Matrix3d::Identity() - second;
+    return m;
+}
+
+double sectionArea(const TriSurface& surface, const Vec3& point, const Vec3& normal)
+{
+    double area = 0;
+    for (const auto& t : surface.triangles)
+    {
+        double d[3];
+        for (int i = 0; i < 3; ++i) d[i] = normal.dot(surface.points[t[i]] - point);
+        Vec3 cut[2]; // entering and leaving the upper side, in the triangle's order
+        int n = 0;
+        for (int i = 0; i < 3; ++i)
+        {
+            const int j = (i + 1) % 3;
+            if ((d[i] >= 0) == (d[j] >= 0)) continue;
+            const Vec3& p = surface.points[t[i]];
+            cut[d[i] < 0 ? 0 : 1] = p + d[i] / (d[i] - d[j]) * (surface.points[t[j]] - p) - point;
+            ++n;
+        }
+        if (n == 2) area += 0.5 * normal.dot(cut[1].cross(cut[0]));
+    }
+    return std::abs(area);
+}
+
+Vec3 anyNormalTo(const Vec3& axis)
+{
+    int least = 0;
+    axis.cwiseAbs().minCoeff(&least);
+    return axis.cross(Vec3::Unit(least)).normalized();
+}
+
+TriSurface surfaceOfRevolution(const Vec3& origin, const Vec3& axis, const std::vector<ProfilePoint>& profile, int nAround)
+{
+    const Vec3 u = anyNormalTo(axis), v = axis.cross(u);
+    TriSurface s;
+    std::vector<int> ringStart;
+    for (const ProfilePoint& p : profile)
+    {
+        ringStart.push_back(static_cast<int>(s.points.size()));
+        const int n = p.radius > 0 ? nAround : 1;
+        for (int i = 0; i < n; ++i)
+        {
+            const double angle = 2 * M_PI * i / nAround;
+            s.points.push_back(origin + p.along * axis + p.radius * (std::cos(angle) * u + std::sin(angle) * v));
+        }
+    }
+    for (std::size_t k = 0; k + 1 < profile.size(); ++k)
+    {
+        const bool isLowerPole = !(profile[k].radius > 0), isUpperPole = !(profile[k + 1].radius > 0);
+        for (int i = 0; i < nAround; ++i)
+        {
+            const int j = (i + 1) % nAround, lower = ringStart[k], upper = ringStart[k + 1];
+            if (isLowerPole) s.triangles.push_back({lower, upper + j, upper + i});
+            else if (isUpperPole) s.triangles.push_back({lower + i, lower + j, upper});
+            else
+            {
+                s.triangles.push_back({lower + i, lower + j, upper + j});
+                s.triangles.push_back({lower + i, upper + j, upper + i});
+            }
+        }
+    }
+    return s;
+}
+
+std::vector<SurfacePoint> samplePoints(const TriSurface& surface, double spacing)
+{
+    std::vector<SurfacePoint> points;
+    for (const auto& t : surface.triangles)
+    {
+        const Vec3 &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
+        const Vec3 normal = (b - a).cross(c - a).normalized();
+        const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+        const int n = std::max(1, static_cast<int>(std::ceil(longest / spacing)));
+        // centroids of the n*n parts of the triangle
+        for (int i = 0; i < n; ++i)
+            for (int j = 0; i + j < n; ++j)
+            {
+                points.push_back({a + ((i + 1.0 / 3) * (b - a) + (j + 1.0 / 3) * (c - a)) / n, normal});
+                if (i + j + 1 < n) points.push_back({a + ((i + 2.0 / 3) * (b - a) + (j + 2.0 / 3) * (c - a)) / n, normal});
+            }
+    }
+    return points;
+}
+
+} // namespace flotsam

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Triangulated surfaces: exact moments of what they enclose, plane sections, surfaces of revolution, sampling.
+#pragma once
+
+#include "geometry/shape.hpp"
+
+namespace flotsam
+{
+
+/// Moments of the enclosed volume by the divergence theorem (sum over tetrahedra to a common point): exact.
+VolumeMoments enclosedMoments(const TriSurface& surface);
+
+/// Area of the section of the enclosed volume with the plane through `point` with unit normal `normal` [m^2].
+double sectionArea(const TriSurface& surface, const Vec3& point, const Vec3& normal);
+
+/// Point of a profile: position along the axis and distance from it [m].
+struct ProfilePoint { double along, radius; };
+
+/// Closed surface of the profile turned about the axis. The profile runs in the direction of the axis, from radius 0 to
+/// radius 0 (other points > 0); `nAround` points per ring.
+TriSurface surfaceOfRevolution(const Vec3& origin, const Vec3& axis, const std::vector<ProfilePoint>& profile, int nAround);
+
+/// Points inside the triangles (none on edges), not further apart than `spacing`.
+struct SurfacePoint { Vec3 x, normal; };
+std::vector<SurfacePoint> samplePoints(const TriSurface& surface, double spacing);
+
+/// A second unit vector normal to `axis`; with the third it makes a right-handed frame {axis, u, axis x u}.
+Vec3 anyNormalTo(const Vec3& axis);
+
+} // namespace flotsam

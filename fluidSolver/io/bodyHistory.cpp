@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/bodyHistory.hpp"
+
+#include "io/hdf5File.hpp"
+#include "io/surfaceSeries.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+namespace flotsam
+{
+
+namespace
+{
+
+struct Series
+{
+    const char* name;
+    std::size_t columns;
+    const char* unit;
+    const char* meaning;
+};
+
+/// Order as in `pack`.
+constexpr Series allSeries[] = {
+    {"position", 3, "m", "origin of the body frame in space; free body: its centre of mass"},
+    {"orientation", 4, "1", "unit quaternion w x y z, body frame to space"},
+    {"velocity", 3, "m/s", "of the origin, space frame"},
+    {"angularVelocity", 3, "rad/s", "space frame"},
+    {"fluidForce", 3, "N", "of the fluid on the member, space frame"},
+    {"fluidMoment", 3, "N m", "of the fluid about the origin, space frame"},
+    {"contactForce", 3, "N", "of bodies and walls on the member, space frame"},
+    {"contactMoment", 3, "N m", "of bodies and walls about the origin, space frame"},
+    {"contacts", 1, "1", "number of touching partners"},
+    {"wetFraction", 1, "1", "liquid share of the surface"}};
+
+constexpr std::size_t recordSize = 27;
+constexpr std::size_t chunkRows = 256;      ///< rows a dataset grows by in the file
+constexpr std::size_t maxBufferedRows = 64;
+constexpr double maxBufferedSeconds = 1;
+
+void pack(const BodyRecord& r, std::vector<double>& out)
+{
+    const auto put = [&](const Vec3& v) { out.insert(out.end(), v.data(), v.data() + 3); };
+    put(r.pose.position);
+    const auto& q = r.pose.orientation;
+    out.insert(out.end(), {q.w(), q.x(), q.y(), q.z()});
+    put(r.motion.velocity);
+    put(r.motion.angularVelocity);
+    put(r.fluidForce);
+    put(r.fluidMoment);
+    put(r.contactForce);
+    put(r.contactMoment);
+    out.insert(out.end(), {double(r.contacts), r.wetFraction});
+}
+
+std::string groupOf(const HistoryMember& member)
+{
+    return (member.isStructure ? "/structures/" : "/bodies/") + member.name;
+}
+
+void checkNames(const std::string& file, const std::vector<HistoryMember>& members)
+{
+    std::set<std::string> groups;
+    for (const auto& member : members)
+    {
+        if (member.name.empty() || member.name == "." || member.name.find('/') != std::string::npos)
+        {
+            throw std::runtime_error(file + ": \"" + member.name + "\" cannot name a body or structure; use a word without /");
+        }
+        if (!groups.insert(groupOf(member)).second)
+        {
+            throw std::runtime_error(file + ": two " + (member.isStructure ? "structures" : "bodies") + " are called "
+                + member.name + "; give each its own name");
+        }
+    }
+}
+
+} // namespace
+
+struct BodyHistory::Implementation
+{
+    std::string file;
+    std::vector<HistoryMember> members;
+    SurfaceSeries surface;
+
+    std::size_t rowsInFile = 0;
+    double lastTime = -std::numeric_limits<double>::infinity();
+    std::vector<double> times;                      ///< of the records not yet in the file
+    std::vector<std::vector<double>> records;       ///< per member: times.size() records of recordSize numbers
+    std::map<std::string, std::vector<double>> scalars; ///< every name ever given; times.size() values each
+    std::chrono::steady_clock::time_point lastFlush = std::chrono::steady_clock::now();
+
+    Implementation(const std::string& file, const std::vector<HistoryMember>& members, double startTime);
+    void create();
+    bool continueFrom(double startTime);
+    void checkMembers(const Hdf5File& out) const;
+    void flushTo(Hdf5File& out);
+    void flush();
+};
+
+BodyHistory::Implementation::Implementation(
+    const std::string& fileName, const std::vector<HistoryMember>& memberList, double startTime)
+    : file(fileName), members(memberList), surface(fileName, memberList), records(memberList.size())
+{
+    checkNames(file, members);
+    if (::access(file.c_str(), F_OK) != 0 || !continueFrom(startTime)) create();
+    for (auto& member : members) member.surface = TriSurface(); // kept by `surface`
+}
+
+void BodyHistory::Implementation::create()
+{
+    Hdf5File out(file, Hdf5File::Mode::Create);
+    out.setAttribute("/", "kind", std::string("flotsam body history"));
+    out.setAttribute("/", "formatVersion", std::int64_t(1));
+    out.createTable("/run/time", 1, chunkRows);
+    out.setAttribute("/run/time", "unit", std::string("s"));
+    for (std::size_t m = 0; m < members.size(); ++m)
+    {
+        const std::string group = groupOf(members[m]) + "/";
+        for (const auto& series : allSeries)
+        {
+            out.createTable(group + series.name, series.columns, chunkRows);
+            out.setAttribute(group + series.name, "unit", std::string(series.unit));
+            out.setAttribute(group + series.name, "meaning", std::string(series.meaning));
+        }
+        out.link("/run/time", group + "time");
+        out.setAttribute(groupOf(members[m]), "mass", members[m].mass);
+        out.setAttribute(groupOf(members[m]), "volume", members[m].volume);
+        out.setAttribute(groupOf(members[m]), "member", std::int64_t(m)); // number in /surface/member
+    }
+    surface.create(out);
+    out.close();
+}
+
+void BodyHistory::Implementation::checkMembers(const Hdf5File& out) const
+{
+    std::set<std::string> wanted, found;
+    for (const auto& member : members) wanted.insert(groupOf(member));
+    for (const char* group : {"/bodies", "/structures"})
+    {
+        for (const auto& name : out.names(group)) found.insert(std::string(group) + "/" + name);
+    }
+    for (const auto& group : wanted)
+    {
+        if (!found.count(group))
+        {
+            throw std::runtime_error(file + ": holds no " + group + "; rename or remove the file to start a new one");
+        }
+    }
+    for (const auto& group : found)
+    {
+        if (!wanted.count(group))
+        {
+            throw std::runtime_error(file + ": holds " + group + ", which this case does not have; rename or remove the file "
+                "to start a new one");
+        }
+    }
+}
+
+/// False when nothing of the file would remain: it belongs to an earlier run and is replaced.
+bool BodyHistory::Implementation::continueFrom(double startTime)
+{
+    Hdf5File out(file, Hdf5File::Mode::ReadWrite);
+    if (!out.exists("/run/time"))
+    {
+        throw std::runtime_error(file + ": not a body history of this program; rename or remove it");
+    }
+    // the start time may have been through a text of 12 digits
+    const double limit = startTime + 1e-11 * std::abs(startTime);
+    const std::vector<double> oldTimes = out.readArray("/run/time");
+    std::size_t kept = std::upper_bound(oldTimes.begin(), oldTimes.end(), limit) - oldTimes.begin();
+    if (kept == 0) return false;
+    checkMembers(out);
+
+    std::vector<std::string> tables;
+    for (const auto& member : members)
+    {
+        for (const auto& series : allSeries) tables.push_back(groupOf(member) + "/" + series.name);
+    }
+    for (const auto& name : out.names("/run"))
+    {
+        tables.push_back("/run/" + name);
+        if (name != "time") scalars[name];
+    }
+    // a kill in the middle of a block may have left series of different lengths
+    for (const auto& table : tables) kept = std::min(kept, out.rows(table));
+    for (const auto& table : tables) out.setRows(table, kept);
+    surface.continueFrom(out, limit);
+    out.close();
+    rowsInFile = kept;
+    if (kept > 0) lastTime = oldTimes[kept - 1];
+    return true;
+}
+
+void BodyHistory::Implementation::flushTo(Hdf5File& out)
+{
+    const std::size_t n = times.size();
+    std::vector<double> column;
+    for (std::size_t m = 0; m < members.size(); ++m)
+    {
+        std::size_t offset = 0;
+        for (const auto& series : allSeries)
+        {
+            column.clear();
+            for (std::size_t i = 0; i < n; ++i)
+            {
+                const auto first = records[m].begin() + i * recordSize + offset;
+                column.insert(column.end(), first, first + series.columns);
+            }
+            out.appendRows(groupOf(members[m]) + "/" + series.name, column.data(), n);
+            offset += series.columns;
+        }
+        records[m].clear();
+    }
+    for (auto& scalar : scalars)
+    {
+        const std::string path = "/run/" + scalar.first;
+        if (!out.exists(path))
+        {
+            out.createTable(path, 1, chunkRows);
+            const std::vector<double> missing(rowsInFile, std::numeric_limits<double>::quiet_NaN());
+            out.appendRows(path, missing.data(), missing.size());
+        }
+        out.appendRows(path, scalar.second.data(), n);
+        scalar.second.clear();
+    }
+    out.appendRows("/run/time", times.data(), n);
+    times.clear();
+    rowsInFile += n;
+}
+
+void BodyHistory::Implementation::flush()
+{
+    if (!times.empty())
+    {
+        Hdf5File out(file, Hdf5File::Mode::ReadWrite);
+        flushTo(out);
+        out.close();
+    }
+    lastFlush = std::chrono::steady_clock::now();
+}
+
+BodyHistory::BodyHistory(const std::string& file, const std::vector<HistoryMember>& members, double startTime)
+    : impl_(new Implementation(file, members, startTime))
+{
+}
+
+BodyHistory::~BodyHistory()
+{
+    try
+    {
+        impl_->flush();
+    }
+    catch (const std::exception& error)
+    {
+        std::cerr << "Warning: the last records of the body history are lost: " << error.what() << '\n';
+    }
+}
+
+void BodyHistory::append(double time, const std::vector<BodyRecord>& records,
+    const std::vector<std::pair<std::string, double>>& scalars)
+{
+    Implementation& my = *impl_;
+    if (records.size() != my.members.size())
+    {
+        throw std::logic_error(my.file + ": " + std::to_string(records.size()) + " records for "
+            + std::to_string(my.members.size()) + " members");
+    }
+    if (!(time > my.lastTime)) return;
+    my.lastTime = time;
+    my.times.push_back(time);
+    for (std::size_t m = 0; m < records.size(); ++m) pack(records[m], my.records[m]);
+
+    const std::size_t n = my.times.size();
+    const double missing = std::numeric_limits<double>::quiet_NaN();
+    for (const auto& scalar : scalars)
+    {
+        auto& values = my.scalars[scalar.first];
+        values.resize(n - 1, missing); // new: earlier records of this block did not have it
+        values.push_back(scalar.second);
+    }
+    for (auto& scalar : my.scalars) scalar.second.resize(n, missing);
+
+    const std::chrono::duration<double> age = std::chrono::steady_clock::now() - my.lastFlush;
+    if (n >= maxBufferedRows || age.count() > maxBufferedSeconds) my.flush();
+}
+
+void BodyHistory::flush()
+{
+    impl_->flush();
+}
+
+void BodyHistory::writeSurface(double time, const std::vector<BodyRecord>& records)
+{
+    impl_->flush();
+    if (impl_->surface.isEmpty()) return;
+    {
+        Hdf5File out(impl_->file, Hdf5File::Mode::ReadWrite);
+        impl_->surface.append(out, time, records);
+        out.close();
+    }
+    impl_->surface.writeXdmf();
+}
+
+} // namespace flotsam

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The whole state of a run as one value, and its file.
+#pragma once
+
+#include "core/flowState.hpp"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace flotsam
+{
+
+struct RunState
+{
+    FlowState flow;                                     ///< this rank's nodes
+    std::map<std::string, std::vector<double>> arrays;  ///< bodies, DEM, statistics by name
+    std::map<std::string, double> scalars;
+};
+
+/// Writes one rank's state to `file` (HDF5), through a temporary file and a rename: never half written.
+void writeCheckpoint(const std::string& file, const RunState& state);
+
+/// Throws std::runtime_error (file, what is wrong) for a missing, damaged or incomplete file, or another number of nodes.
+RunState readCheckpoint(const std::string& file, std::size_t nNodes);
+
+} // namespace flotsam

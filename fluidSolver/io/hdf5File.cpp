@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/hdf5File.hpp"
+
+#include <hdf5.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <type_traits>
+
+namespace flotsam
+{
+
+static_assert(std::is_same<hid_t, std::int64_t>::value, "HDF5 before 1.10 has narrower identifiers");
+
+namespace
+{
+
+/// Closes an HDF5 identifier at the end of its scope.
+class Handle
+{
+public:
+    Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+    ~Handle() { if (id_ >= 0) close_(id_); }
+    Handle(const Handle&) = delete;
+    Handle& operator=(const Handle&) = delete;
+    operator hid_t() const { return id_; }
+    bool isValid() const { return id_ >= 0; }
+
+private:
+    hid_t id_;
+    herr_t (*close_)(hid_t);
+};
+
+/// HDF5 prints its error stack by default; the message belongs into the exception instead.
+class Silence
+{
+public:
+    Silence() { H5Eget_auto2(H5E_DEFAULT, &function_, &data_); H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+    ~Silence() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
+    Silence(const Silence&) = delete;
+    Silence& operator=(const Silence&) = delete;
+
+private:
+    H5E_auto2_t function_ = nullptr;
+    void* data_ = nullptr;
+};
+
+herr_t keepFirst(unsigned, const H5E_error2_t* error, void* text)
+{
+    auto& message = *static_cast<std::string*>(text);
+    if (message.empty() && error->desc) message = error->desc;
+    return 0;
+}
+
+std::string lastHdf5Error()
+{
+    std::string text;
+    H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keepFirst, &text);
+    return text.empty() ? "no reason given" : text;
+}
+
+herr_t collectName(hid_t, const char* name, const H5L_info_t*, void* list)
+{
+    static_cast<std::vector<std::string>*>(list)->push_back(name);
+    return 0;
+}
+
+/// True when every link of the path exists (H5Lexists fails on a missing parent).
+bool pathExists(hid_t file, const std::string& path)
+{
+    if (path == "/") return true;
+    for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1))
+    {
+        if (H5Lexists(file, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
+        if (end == std::string::npos) return true;
+    }
+}
+
+hid_t storageType(Hdf5File::Storage storage)
+{
+    switch (storage)
+    {
+        case Hdf5File::Storage::Float32: return H5T_IEEE_F32LE;
+        case Hdf5File::Storage::Int32: return H5T_STD_I32LE;
+        default: return H5T_IEEE_F64LE;
+    }
+}
+
+hid_t linkProperties()
+{
+    const hid_t properties = H5Pcreate(H5P_LINK_CREATE);
+    H5Pset_create_intermediate_group(properties, 1);
+    return properties;
+}
+
+constexpr hsize_t arrayBlock = 1 << 17; // values per checksummed block: 1 MiB
+
+} // namespace
+
+Hdf5File::Hdf5File(const std::string& file, Mode mode) : file_(file)
+{
+    const Silence silence;
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+    // A reader that holds the file open must not stop a running computation.
+    H5Pset_file_locking(access, false, true);
+    // Format of HDF5 1.8: its structure is checksummed, and it has no "still open" mark that a killed run would leave set.
+    H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_V18);
+
+    switch (mode)
+    {
+        case Mode::Create: id_ = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access); break;
+        case Mode::ReadWrite: id_ = H5Fopen(file.c_str(), H5F_ACC_RDWR, access); break;
+        case Mode::Read: id_ = H5Fopen(file.c_str(), H5F_ACC_RDONLY, access); break;
+    }
+    if (id_ < 0) fail(mode == Mode::Create ? "cannot create the file" : "cannot open the file", "");
+}
+
+Hdf5File::~Hdf5File()
+{
+    const Silence silence;
+    if (id_ >= 0) H5Fclose(id_);
+}
+
+void Hdf5File::close()
+{
+    if (id_ < 0) return;
+    const Silence silence;
+    const bool isFlushed = H5Fflush(id_, H5F_SCOPE_LOCAL) >= 0;
+    const std::string reason = isFlushed ? "" : lastHdf5Error();
+    const bool isClosed = H5Fclose(id_) >= 0;
+    id_ = -1;
+    if (!isFlushed) throw std::runtime_error(file_ + ": cannot write the file to disk (" + reason + ")");
+    if (!isClosed) fail("cannot close the file", "");
+}
+
+void Hdf5File::fail(const std::string& action, const std::string& path) const
+{
+    const std::string where = path.empty() ? "" : ", dataset " + path;
+    throw std::runtime_error(file_ + where + ": " + action + " (" + lastHdf5Error() + ")");
+}
+
+bool Hdf5File::exists(const std::string& path) const
+{
+    const Silence silence;
+    return pathExists(id_, path);
+}
+
+std::vector<std::string> Hdf5File::names(const std::string& group) const
+{
+    const Silence silence;
+    std::vector<std::string> list;
+    if (!pathExists(id_, group)) return list;
+    const Handle id(H5Gopen2(id_, group.c_str(), H5P_DEFAULT), H5Gclose);
+    if (!id.isValid() || H5Literate(id, H5_INDEX_NAME, H5_ITER_INC, nullptr, collectName, &list) < 0)
+    {
+        fail("cannot list the group", group);
+    }
+    return list;
+}
+
+void Hdf5File::link(const std::string& existing, const std::string& path)
+{
+    const Silence silence;
+    const Handle properties(linkProperties(), H5Pclose);
+    if (H5Lcreate_hard(id_, existing.c_str(), H5L_SAME_LOC, path.c_str(), properties, H5P_DEFAULT) < 0)
+    {
+        fail("cannot link to " + existing, path);
+    }
+}
+
+// --- attributes ---------------------------------------------------------------------------------------------------
+
+void Hdf5File::writeAttribute(const std::string& path, const std::string& name, Id type, const void* value)
+{
+    const Silence silence;
+    if (!pathExists(id_, path))
+    {
+        const Handle properties(linkProperties(), H5Pclose);
+        const Handle group(H5Gcreate2(id_, path.c_str(), properties, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
+        if (!group.isValid()) fail("cannot make the group", path);
+    }
+    if (H5Aexists_by_name(id_, path.c_str(), name.c_str(), H5P_DEFAULT) > 0)
+    {
+        H5Adelete_by_name(id_, path.c_str(), name.c_str(), H5P_DEFAULT);
+    }
+    const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+    const Handle id(H5Acreate_by_name(id_, path.c_str(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+        H5Aclose);
+    if (!id.isValid() || H5Awrite(id, type, value) < 0) fail("cannot write attribute " + name, path);
+}
+
+void Hdf5File::setAttribute(const std::string& path, const std::string& name, const std::string& value)
+{
+    const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+    H5Tset_size(type, std::max<std::size_t>(value.size(), 1));
+    H5Tset_strpad(type, H5T_STR_NULLPAD);
+    H5Tset_cset(type, H5T_CSET_UTF8);
+    writeAttribute(path, name, type, value.c_str());
+}
+
+void Hdf5File::setAttribute(const std::string& path, const std::string& name, double value)
+{
+    writeAttribute(path, name, H5T_NATIVE_DOUBLE, &value);
+}
+
+void Hdf5File::setAttribute(const std::string& path, const std::string& name, std::int64_t value)
+{
+    writeAttribute(path, name, H5T_NATIVE_INT64, &value);
+}
+
+bool Hdf5File::hasAttribute(const std::string& path, const std::string& name) const
+{
+    const Silence silence;
+    return pathExists(id_, path) && H5Aexists_by_name(id_, path.c_str(), name.c_str(), H5P_DEFAULT) > 0;
+}
+
+Hdf5File::Id Hdf5File::openAttribute(const std::string& path, const std::string& name) const
+{
+    const hid_t id = H5Aopen_by_name(id_, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+    if (id < 0) fail("cannot find attribute " + name, path);
+    return id;
+}
+
+void Hdf5File::readAttribute(const std::string& path, const std::string& name, Id type, void* value) const
+{
+    const Silence silence;
+    const Handle id(openAttribute(path, name), H5Aclose);
+    if (H5Aread(id, type, value) < 0) fail("cannot read attribute " + name, path);
+}
+
+std::string Hdf5File::stringAttribute(const std::string& path, const std::string& name) const
+{
+    const Silence silence;
+    const Handle id(openAttribute(path, name), H5Aclose);
+    const Handle type(H5Aget_type(id), H5Tclose);
+    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) fail("not a plain text: attribute " + name, path);
+    std::string text(H5Tget_size(type), '\0');
+    if (H5Aread(id, type, &text[0]) < 0) fail("cannot read attribute " + name, path);
+    return text.substr(0, text.find('\0'));
+}
+
+double Hdf5File::realAttribute(const std::string& path, const std::string& name) const
+{
+    double value = 0;
+    readAttribute(path, name, H5T_NATIVE_DOUBLE, &value);
+    return value;
+}
+
+std::int64_t Hdf5File::integerAttribute(const std::string& path, const std::string& name) const
+{
+    std::int64_t value = 0;
+    readAttribute(path, name, H5T_NATIVE_INT64, &value);
+    return value;
+}
+
+// --- arrays -------------------------------------------------------------------------------------------------------
+
+void Hdf5File::writeArray(const std::string& path, const std::vector<double>& values)
+{
+    const Silence silence;
+    const hsize_t size = values.size();
+    const hsize_t block = std::min(size, arrayBlock);
+    const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    if (size > 0)
+    {
+        H5Pset_chunk(creation, 1, &block);
+        H5Pset_fletcher32(creation);
+    }
+    const Handle links(linkProperties(), H5Pclose);
+    const Handle id(H5Dcreate2(id_, path.c_str(), H5T_IEEE_F64LE, space, links, creation, H5P_DEFAULT), H5Dclose);
+    if (!id.isValid()) fail("cannot create", path);
+    if (size > 0 && H5Dwrite(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    {
+        fail("cannot write", path);
+    }
+}
+
+std::vector<double> Hdf5File::readArray(const std::string& path) const
+{
+    const Silence silence;
+    const Handle id(H5Dopen2(id_, path.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!id.isValid()) fail("cannot find", path);
+    const Handle space(H5Dget_space(id), H5Sclose);
+    const hssize_t size = H5Sget_simple_extent_npoints(space);
+    if (size < 0) fail("cannot read the size", path);
+    std::vector<double> values(size);
+    if (size > 0 && H5Dread(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+    {
+        fail("cannot read", path);
+    }
+    return values;
+}
+
+// --- tables -------------------------------------------------------------------------------------------------------
+
+void Hdf5File::createTable(const std::string& path, std::size_t columns, std::size_t chunkRows, Storage storage)
+{
+    const Silence silence;
+    const int rank = columns == 1 ? 1 : 2;
+    const hsize_t none[2] = {0, columns}, most[2] = {H5S_UNLIMITED, columns}, chunk[2] = {chunkRows, columns};
+    const Handle space(H5Screate_simple(rank, none, most), H5Sclose);
+    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_chunk(creation, rank, chunk);
+    const Handle links(linkProperties(), H5Pclose);
+    const Handle id(H5Dcreate2(id_, path.c_str(), storageType(storage), space, links, creation, H5P_DEFAULT), H5Dclose);
+    if (!id.isValid()) fail("cannot create", path);
+}
+
+namespace
+{
+
+/// {rows, columns} of a table; rank as stored.
+struct Extent
+{
+    int rank = 0;
+    hsize_t size[2] = {0, 1};
+
+    explicit Extent(hid_t dataset)
+    {
+        const Handle space(H5Dget_space(dataset), H5Sclose);
+        rank = H5Sget_simple_extent_ndims(space);
+        if (rank == 1 || rank == 2) H5Sget_simple_extent_dims(space, size, nullptr);
+    }
+    bool isTable() const { return rank == 1 || rank == 2; }
+};
+
+} // namespace
+
+std::size_t Hdf5File::rows(const std::string& path) const
+{
+    const Silence silence;
+    const Handle id(H5Dopen2(id_, path.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!id.isValid()) fail("cannot find", path);
+    return Extent(id).size[0];
+}
+
+std::size_t Hdf5File::columns(const std::string& path) const
+{
+    const Silence silence;
+    const Handle id(H5Dopen2(id_, path.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!id.isValid()) fail("cannot find", path);
+    return Extent(id).size[1];
+}
+
+void Hdf5File::append(const std::string& path, const void* values, Id memoryType, std::size_t nRows)
+{
+    const Silence silence;
+    const Handle id(H5Dopen2(id_, path.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!id.isValid()) fail("cannot find", path);
+    Extent extent(id);
+    if (!extent.isTable()) fail("not a table", path);
+    const hsize_t start[2] = {extent.size[0], 0}, count[2] = {nRows, extent.size[1]};
+    extent.size[0] += nRows;
+    if (nRows == 0) return;
+    if (H5Dset_extent(id, extent.size) < 0) fail("cannot extend", path);
+    const Handle inFile(H5Dget_space(id), H5Sclose), inMemory(H5Screate_simple(extent.rank, count, nullptr), H5Sclose);
+    H5Sselect_hyperslab(inFile, H5S_SELECT_SET, start, nullptr, count, nullptr);
+    if (H5Dwrite(id, memoryType, inMemory, inFile, H5P_DEFAULT, values) < 0) fail("cannot append", path);
+}
+
+void Hdf5File::appendRows(const std::string& path, const double* values, std::size_t nRows)
+{
+    append(path, values, H5T_NATIVE_DOUBLE, nRows);
+}
+
+void Hdf5File::appendRows(const std::string& path, const int* values, std::size_t nRows)
+{
+    append(path, values, H5T_NATIVE_INT, nRows);
+}
+
+void Hdf5File::setRows(const std::string& path, std::size_t nRows)
+{
+    const Silence silence;
+    const Handle id(H5Dopen2(id_, path.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!id.isValid()) fail("cannot find", path);
+    Extent extent(id);
+    if (!extent.isTable()) fail("not a table", path);
+    extent.size[0] = nRows;
+    if (H5Dset_extent(id, extent.size) < 0) fail("cannot resize", path);
+}
+
+} // namespace flotsam

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/surfaceSeries.hpp"
+
+#include "io/hdf5File.hpp"
+
+#include <cstdio>
+#include <fstream>
+#include <iomanip>
+#include <stdexcept>
+
+namespace flotsam
+{
+
+namespace
+{
+
+const std::string group = "/surface";
+
+void put(std::vector<double>& list, const Vec3& v)
+{
+    list.insert(list.end(), v.data(), v.data() + 3);
+}
+
+/// Rows `first`..`first+count-1` of a table with three columns, as XDMF's reader of ParaView 5 wants them.
+void writeSlab(std::ostream& out, const std::string& dataset, const char* type, std::size_t first, std::size_t count,
+    std::size_t total)
+{
+    out << "<DataItem ItemType=\"HyperSlab\" Dimensions=\"" << count << " 3\" Type=\"HyperSlab\">"
+        << "<DataItem Dimensions=\"3 2\" Format=\"XML\">" << first << " 0 1 1 " << count << " 3</DataItem>"
+        << "<DataItem Dimensions=\"" << total << " 3\" NumberType=\"" << type << "\" Precision=\"4\" Format=\"HDF\">"
+        << dataset << "</DataItem></DataItem>";
+}
+
+} // namespace
+
+SurfaceSeries::SurfaceSeries(const std::string& file, const std::vector<HistoryMember>& members) : file_(file)
+{
+    for (std::size_t m = 0; m < members.size(); ++m)
+    {
+        const TriSurface& surface = members[m].surface;
+        const int first = int(points_.size());
+        points_.insert(points_.end(), surface.points.begin(), surface.points.end());
+        pointMember_.insert(pointMember_.end(), surface.points.size(), int(m));
+        for (const auto& triangle : surface.triangles)
+        {
+            for (const int p : triangle) triangles_.push_back(first + p);
+            triangleMember_.push_back(int(m));
+        }
+    }
+}
+
+void SurfaceSeries::create(Hdf5File& out) const
+{
+    if (isEmpty()) return;
+    const std::size_t nTriangles = triangleMember_.size();
+    out.createTable(group + "/triangles", 3, nTriangles, Hdf5File::Storage::Int32);
+    out.appendRows(group + "/triangles", triangles_.data(), nTriangles);
+    out.createTable(group + "/member", 1, nTriangles, Hdf5File::Storage::Int32);
+    out.appendRows(group + "/member", triangleMember_.data(), nTriangles);
+    out.createTable(group + "/time", 1, 256);
+    // pictures need no more than single precision
+    out.createTable(group + "/points", 3, points_.size(), Hdf5File::Storage::Float32);
+    out.createTable(group + "/velocity", 3, points_.size(), Hdf5File::Storage::Float32);
+    out.createTable(group + "/memberVelocity", 3, nTriangles, Hdf5File::Storage::Float32);
+    out.createTable(group + "/contactForce", 3, nTriangles, Hdf5File::Storage::Float32);
+    const std::pair<const char*, const char*> units[] = {{"/time", "s"}, {"/points", "m"}, {"/velocity", "m/s"},
+        {"/memberVelocity", "m/s"}, {"/contactForce", "N"}};
+    for (const auto& u : units) out.setAttribute(group + u.first, "unit", std::string(u.second));
+}
+
+void SurfaceSeries::continueFrom(Hdf5File& out, double startTime)
+{
+    if (isEmpty() && !out.exists(group)) return;
+    if (isEmpty() || !out.exists(group) || out.rows(group + "/triangles") != triangleMember_.size()
+        || out.columns(group + "/points") != 3 || out.rows(group + "/points") % points_.size() != 0)
+    {
+        throw std::runtime_error(file_ + ": the surfaces of the bodies have changed since this file was begun; rename or "
+            "remove it to start a new one");
+    }
+    times_ = out.readArray(group + "/time");
+    while (!times_.empty() && times_.back() > startTime) times_.pop_back();
+    const std::size_t n = times_.size();
+    out.setRows(group + "/time", n);
+    out.setRows(group + "/points", n * points_.size());
+    out.setRows(group + "/velocity", n * points_.size());
+    out.setRows(group + "/memberVelocity", n * triangleMember_.size());
+    out.setRows(group + "/contactForce", n * triangleMember_.size());
+}
+
+void SurfaceSeries::append(Hdf5File& out, double time, const std::vector<BodyRecord>& records)
+{
+    if (isEmpty() || (!times_.empty() && time <= times_.back())) return;
+    std::vector<double> points, velocity, memberVelocity, contactForce;
+    points.reserve(3 * points_.size());
+    velocity.reserve(3 * points_.size());
+    memberVelocity.reserve(triangles_.size());
+    contactForce.reserve(triangles_.size());
+    for (std::size_t i = 0; i < points_.size(); ++i)
+    {
+        const BodyRecord& record = records[pointMember_[i]];
+        const Vec3 arm = record.pose.orientation * points_[i];
+        put(points, record.pose.position + arm);
+        put(velocity, record.motion.velocity + record.motion.angularVelocity.cross(arm));
+    }
+    for (const int m : triangleMember_)
+    {
+        put(memberVelocity, records[m].motion.velocity);
+        put(contactForce, records[m].contactForce);
+    }
+    out.appendRows(group + "/points", points.data(), points_.size());
+    out.appendRows(group + "/velocity", velocity.data(), points_.size());
+    out.appendRows(group + "/memberVelocity", memberVelocity.data(), triangleMember_.size());
+    out.appendRows(group + "/contactForce", contactForce.data(), triangleMember_.size());
+    out.appendRows(group + "/time", &time, 1);
+    times_.push_back(time);
+}
+
+void SurfaceSeries::writeXdmf() const
+{
+    if (isEmpty()) return;
+    const auto slash = file_.rfind('/');
+    const auto dot = file_.rfind('.');
+    const bool hasEnding = dot != std::string::npos && (slash == std::string::npos || dot > slash);
+    const std::string name = (hasEnding ? file_.substr(0, dot) : file_) + ".xdmf";
+    const std::string data = (slash == std::string::npos ? file_ : file_.substr(slash + 1)) + ":" + group;
+    const std::size_t nPoints = points_.size(), nTriangles = triangleMember_.size(), nTimes = times_.size();
+
+    std::ofstream out(name + ".tmp");
+    out << std::setprecision(12)
+        << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\"><Domain>\n"
+        << "<Grid Name=\"bodies\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
+    for (std::size_t t = 0; t < nTimes; ++t)
+    {
+        out << "<Grid Name=\"surface\" GridType=\"Uniform\"><Time Value=\"" << times_[t] << "\"/>\n"
+            << "<Topology TopologyType=\"Triangle\" NumberOfElements=\"" << nTriangles << "\">";
+        // a slab here, too: ParaView 5 then does not try to find out (in vain, with an error) whether the grid has changed
+        writeSlab(out, data + "/triangles", "Int", 0, nTriangles, nTriangles);
+        out << "</Topology>\n<Geometry GeometryType=\"XYZ\">";
+        writeSlab(out, data + "/points", "Float", t * nPoints, nPoints, nTimes * nPoints);
+        out << "</Geometry>\n<Attribute Name=\"member\" AttributeType=\"Scalar\" Center=\"Cell\"><DataItem Dimensions=\""
+            << nTriangles << "\" NumberType=\"Int\" Precision=\"4\" Format=\"HDF\">" << data << "/member</DataItem></Attribute>\n"
+            << "<Attribute Name=\"surfaceVelocity\" AttributeType=\"Vector\" Center=\"Node\">";
+        writeSlab(out, data + "/velocity", "Float", t * nPoints, nPoints, nTimes * nPoints);
+        out << "</Attribute>\n<Attribute Name=\"velocity\" AttributeType=\"Vector\" Center=\"Cell\">";
+        writeSlab(out, data + "/memberVelocity", "Float", t * nTriangles, nTriangles, nTimes * nTriangles);
+        out << "</Attribute>\n<Attribute Name=\"contactForce\" AttributeType=\"Vector\" Center=\"Cell\">";
+        writeSlab(out, data + "/contactForce", "Float", t * nTriangles, nTriangles, nTimes * nTriangles);
+        out << "</Attribute>\n</Grid>\n";
+    }
+    out << "</Grid>\n</Domain></Xdmf>\n";
+    out.close();
+    if (!out || std::rename((name + ".tmp").c_str(), name.c_str()) != 0)
+    {
+        throw std::runtime_error(name + ": cannot write the file");
+    }
+}
+
+} // namespace flotsam

@@ -1,0 +1,30 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Sourced (bash) by every script: where things are, and what OpenFOAM and Open MPI need to run.
+flotsamRoot=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+flotsamBuild=${FLOTSAM_BUILD:-$flotsamRoot/build}
+export PATH="$flotsamBuild/bin:$PATH"
+
+# Debian's OpenFOAM programs find their etc/ folder by this alone
+if [ -z "${WM_PROJECT_DIR:-}" ] && [ -f /usr/share/openfoam/etc/controlDict ]; then
+    export WM_PROJECT_DIR=/usr/share/openfoam
+fi
+
+# Open MPI: as root (containers), more ranks than cores, and no busy waiting where cores are shared
+if [ "$(id -u)" = 0 ]; then
+    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+fi
+export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1
+export OMPI_MCA_btl_vader_single_copy_mechanism=none    # containers forbid it, with a message for every rank
+export OMP_NUM_THREADS=1
+
+# the python that has the packages: another one may stand first in PATH
+if [ -z "${FLOTSAM_PYTHON:-}" ]; then
+    FLOTSAM_PYTHON=python3
+    for python in python3 /usr/bin/python3; do
+        if "$python" -c 'import h5py, numpy' 2> /dev/null; then
+            FLOTSAM_PYTHON=$python
+            break
+        fi
+    done
+    export FLOTSAM_PYTHON
+fi

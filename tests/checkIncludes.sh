@@ -1,0 +1,116 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# checkIncludes.sh [ROOT]
+# The two structural rules of the sources, checked on their #include lines:
+#   1. extensions: .C and .H may include OpenFOAM, .cpp and .hpp may not (nor any .H, which would let it in);
+#      LIGGGHTS, PETSc and HDF5 are each included in one folder.
+#   2. arrows: a folder includes only the folders that its row below names; fluidSolver never includes demCoupling.
+# Prints file:line of every breach; fails when there is one.
+set -u
+cd "${1:-$(dirname "$0")/..}" || exit 2
+
+# folder, then the folders of this project it may include besides itself; * = all
+arrows='
+fluidSolver             *
+fluidSolver/core
+fluidSolver/algebra     fluidSolver/core
+fluidSolver/geometry    fluidSolver/core fluidSolver/algebra
+fluidSolver/equations   fluidSolver/core fluidSolver/algebra fluidSolver/geometry
+fluidSolver/io          fluidSolver/core fluidSolver/geometry
+fluidSolver/foam        fluidSolver/core fluidSolver/algebra fluidSolver/geometry fluidSolver/equations fluidSolver/io
+demCoupling/core        fluidSolver/core fluidSolver/geometry
+demCoupling/liggghts    demCoupling/core fluidSolver/core fluidSolver/geometry
+demCoupling/foam        demCoupling/core demCoupling/liggghts fluidSolver/core fluidSolver/geometry fluidSolver/foam
+tests                   *
+benchmarks              *
+'
+
+# package, the one folder that includes it (tests and benchmarks may as well), its headers
+packages='
+PETSc       fluidSolver/algebra     ^petsc.*\.h$
+HDF5        fluidSolver/io          ^(hdf5|H5).*\.h$
+MPI         !fluidSolver/core       ^mpi\.h$
+LIGGGHTS    demCoupling/liggghts    \.h$
+'
+# headers of the C++ and C libraries and of header-only tools that everything may include
+free='^([a-z_0-9]+|Eigen/.*|doctest/.*|(fcntl|fenv|signal|unistd)\.h|sys/.*\.h)$'
+
+breaches=0
+breach() {
+    echo "$1"
+    breaches=$((breaches + 1))
+}
+
+# the row of `arrows` a file belongs to: its folder or the nearest one above
+rowOf() {
+    local folder=$1
+    while [ "$folder" != . ]; do
+        grep -qE "^$folder( |$)" <<< "$arrows" && break
+        folder=$(dirname "$folder")
+    done
+    echo "$folder"
+}
+
+# path of an included file of this project, empty for others
+ownFile() {
+    local folder
+    for folder in "$(dirname "$1")" . fluidSolver tests; do
+        if [ -f "$folder/$2" ]; then
+            realpath --relative-to=. "$folder/$2"
+            return
+        fi
+    done
+}
+
+checkOwn() {    # file line row included
+    local target
+    target=$(rowOf "$4")
+    case $1:$4 in
+        *.[ch]pp:*.H) breach "$1:$2: $4 is an OpenFOAM-side header; .cpp and .hpp may not include .H" ;;
+    esac
+    [ "$target" = "$3" ] && return
+    local allowed
+    allowed=$(sed -n "s|^$3  *||p" <<< "$arrows")
+    case " $allowed " in
+        *' * '* | *" $target "*) ;;
+        *) breach "$1:$2: $3 may not include $target ($4); allowed: ${allowed:-nothing else of this project}" ;;
+    esac
+}
+
+checkForeign() {    # file line row included
+    if [[ $4 =~ $free ]]; then return; fi
+    case $1:$4 in
+        *.[CH]:*.[CH]) return ;;
+        *:*.[CH]) breach "$1:$2: $4 is OpenFOAM's; only .C and .H files may include it"; return ;;
+    esac
+    local package folder pattern
+    while read -r package folder pattern; do
+        if [[ -n $package && $4 =~ $pattern ]]; then
+            case $3:$folder in
+                tests:* | benchmarks:* | "$folder:$folder") ;;
+                *:!*) if [ "!$3" = "$folder" ]; then breach "$1:$2: $package ($4) is not used in $3"; fi ;;
+                *) breach "$1:$2: $package ($4) is included in $folder alone" ;;
+            esac
+            return
+        fi
+    done <<< "$packages"
+    breach "$1:$2: $4 is neither a file of this project nor in the table of packages"
+}
+
+files=$(find fluidSolver demCoupling tests benchmarks -name '*.[CH]' -o -name '*.[ch]pp' 2> /dev/null)
+includes=0
+while IFS=: read -r file line text; do
+    [ -n "$file" ] || continue
+    includes=$((includes + 1))
+    included=$(sed -E 's/^[^<"]*[<"]([^>"]*)[>"].*/\1/' <<< "$text")
+    row=$(rowOf "$file")
+    own=$(ownFile "$file" "$included")
+    if [ -n "$own" ]; then
+        checkOwn "$file" "$line" "$row" "$own"
+    else
+        checkForeign "$file" "$line" "$row" "$included"
+    fi
+done < <(grep -nE '^[[:space:]]*#[[:space:]]*include' $files /dev/null)
+
+echo "checkIncludes: $includes includes in $(wc -w <<< "$files") files, $breaches breaches"
+[ "$breaches" -eq 0 ]

@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# DEM engine: contact law, walls, states
+set(dem_support unit/demSupport.cpp)
+flotsam_test(demLaw unit SOURCES unit/demLaw.cpp ${dem_support} LIBRARIES flotsam_liggghts)
+flotsam_test(demEngine unit SOURCES unit/demEngine.cpp ${dem_support} LIBRARIES flotsam_liggghts)
+flotsam_test(demState unit SOURCES unit/demState.cpp ${dem_support} LIBRARIES flotsam_liggghts RANKS 1 2)
+flotsam_test(demWalls unit SOURCES unit/demWalls.cpp ${dem_support} LIBRARIES flotsam_liggghts)
+flotsam_test(demMotion verification SOURCES verification/demMotion.cpp ${dem_support} LIBRARIES flotsam_liggghts)
+flotsam_test(demContact verification SOURCES verification/demContact.cpp ${dem_support} LIBRARIES flotsam_liggghts)

@@ -1,0 +1,3 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+flotsam_test(flowAtRest verification SOURCES verification/flowAtRest.cpp
+  LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)

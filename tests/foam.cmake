@@ -1,0 +1,8 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+add_library(flotsam_foam_test STATIC support/foamCase.C)
+target_link_libraries(flotsam_foam_test PUBLIC flotsam_foam)
+target_include_directories(flotsam_foam_test PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
+target_compile_definitions(flotsam_foam_test PRIVATE FLOTSAM_TEST_CASES="${CMAKE_CURRENT_SOURCE_DIR}/cases")
+
+flotsam_test(foamControls unit SOURCES unit/foamControls.C LIBRARIES flotsam_foam_test)
+flotsam_test(foamVectoriser unit SOURCES unit/foamVectoriser.C LIBRARIES flotsam_foam_test)

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The meshes of support/makeMeshCases.sh, read whole by every rank and decomposed by all of them.
+#include "algebra/halo.hpp"
+#include "foam/meshAdapter.H"
+#include "support/meshChecks.hpp"
+
+#include "Time.H"
+#include "argList.H"
+#include "cellModel.H"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+using namespace flotsam;
+
+namespace
+{
+
+const std::string caseFolder = FLOTSAM_MESH_CASES;
+
+int rankOf(MPI_Comm comm)
+{
+    int rank = 0;
+    MPI_Comm_rank(comm, &rank);
+    return rank;
+}
+
+int sizeOf(MPI_Comm comm)
+{
+    int size = 1;
+    MPI_Comm_size(comm, &size);
+    return size;
+}
+
+/// OpenFOAM's parallel mode, once per process. Never destroyed: its destructor ends the process.
+void startFoam()
+{
+    static Foam::argList* args = nullptr;
+    if (args)
+    {
+        return;
+    }
+    const int size = sizeOf(MPI_COMM_WORLD);
+    static std::string words[4] = {"test", "-case", caseFolder + "/obstacle.np" + std::to_string(size), "-parallel"};
+    static char* pointers[5] = {&words[0][0], &words[1][0], &words[2][0], &words[3][0], nullptr};
+    int argc = size > 1 ? 4 : 3;
+    char** argv = pointers;
+    Foam::argList::noBanner();
+    args = new Foam::argList(argc, argv);
+    Foam::FatalError.throwExceptions();
+}
+
+/// A time and its mesh: the whole case (read outside OpenFOAM's parallel mode), or this rank's part.
+class FoamMesh
+{
+public:
+    FoamMesh(const std::string& name, MPI_Comm comm)
+    {
+        startFoam();
+        const bool wasParallel = Foam::UPstream::parRun();
+        Foam::UPstream::parRun() = sizeOf(comm) > 1;
+        const int size = sizeOf(comm);
+        const std::string part = size > 1 ? "/processor" + std::to_string(rankOf(comm)) : "";
+        time_.reset(new Foam::Time(Foam::Time::controlDictName, caseFolder, name + ".np" + std::to_string(size) + part));
+        mesh_.reset(new Foam::polyMesh(Foam::IOobject(
+            Foam::polyMesh::defaultRegion, time_->timeName(), *time_, Foam::IOobject::MUST_READ)));
+        try
+        {
+            adapter_ = makeSimplexMesh(*mesh_, comm);
+        }
+        catch (const Foam::error& problem)
+        {
+            message_ = problem.message();
+        }
+        mesh_->cellVolumes();
+        Foam::UPstream::parRun() = wasParallel;
+    }
+
+    const Foam::polyMesh& foam() const { return *mesh_; }
+    const MeshAdapter& adapter() const { return adapter_; }
+    const std::string& message() const { return message_; } ///< of the FatalError, if any
+
+private:
+    std::unique_ptr<Foam::Time> time_;
+    std::unique_ptr<Foam::polyMesh> mesh_;
+    MeshAdapter adapter_;
+    std::string message_;
+};
+
+/// Largest relative difference between a cell's volume and that of its simplices.
+double cellVolumeError(const Foam::polyMesh& foam, const MeshAdapter& adapter)
+{
+    double worst = 0;
+    for (Foam::label c = 0; c < foam.nCells(); ++c)
+    {
+        double volume = 0;
+        for (Foam::label k = adapter.cellStart[c]; k < adapter.cellStart[c + 1]; ++k)
+        {
+            const int e = adapter.cellElements[k];
+            volume += adapter.mesh.isOwnedElement[e] ? adapter.mesh.volume[e] : 1e300;
+        }
+        const double exact = foam.cellVolumes()[c];
+        worst = std::max(worst, std::abs(volume * adapter.mesh.thickness - exact) / exact);
+    }
+    return worst;
+}
+
+/// Largest distance between a point and its node in space; 2D: along the plane.
+double pointError(const Foam::polyMesh& foam, const MeshAdapter& adapter)
+{
+    const SimplexMesh& mesh = adapter.mesh;
+    double worst = 0;
+    for (Foam::label i = 0; i < foam.nPoints(); ++i)
+    {
+        const auto x = mesh.spacePoint(adapter.pointNode[i]);
+        for (int d = 0; d < mesh.dim; ++d)
+        {
+            worst = std::max(worst, std::abs(x[mesh.axes[d]] - foam.points()[i][mesh.axes[d]]));
+        }
+    }
+    return worst;
+}
+
+/// Smallest element over its cell.
+double worstElement(const Foam::polyMesh& foam, const MeshAdapter& adapter)
+{
+    double worst = 1;
+    for (Foam::label c = 0; c < foam.nCells(); ++c)
+    {
+        for (Foam::label k = adapter.cellStart[c]; k < adapter.cellStart[c + 1]; ++k)
+        {
+            worst = std::min(worst, adapter.mesh.volume[adapter.cellElements[k]] * adapter.mesh.thickness / foam.cellVolumes()[c]);
+        }
+    }
+    return worst;
+}
+
+bool isConforming(const SimplexMesh& mesh)
+{
+    const NodeGraph graph(mesh);
+    std::size_t boundary = 0;
+    for (const MeshPatch& patch : mesh.patches)
+    {
+        boundary += patch.faceElement.size();
+    }
+    return 2 * graph.faces.size() + boundary == mesh.elements.size();
+}
+
+void checkWhole(const FoamMesh& whole, double volumeTolerance)
+{
+    const MeshAdapter& adapter = whole.adapter();
+    CHECK(isConforming(adapter.mesh));
+    CHECK(cellVolumeError(whole.foam(), adapter) < volumeTolerance);
+    CHECK(pointError(whole.foam(), adapter) == 0);
+    CHECK(worstElement(whole.foam(), adapter) > 1e-4);
+    CHECK(*std::max_element(adapter.mesh.originalNode.begin(), adapter.mesh.originalNode.end()) == adapter.mesh.nNodes - 1);
+}
+
+void compare(const SimplexMesh& whole, const SimplexMesh& share)
+{
+    const Halo one(whole, MPI_COMM_SELF), all(share, MPI_COMM_WORLD);
+    CHECK(checkDistribution(share, all) == "");
+    const MeshSummary expected = summarise(whole, NodeGraph(whole), one), found = summarise(share, NodeGraph(share), all);
+    CHECK(found.elements == expected.elements);
+    CHECK(found.nodes == expected.nodes);
+    CHECK(found.splitDigest == expected.splitDigest);
+    CHECK(found.volume == doctest::Approx(expected.volume).epsilon(1e-12));
+    CHECK(found.laplacian == doctest::Approx(expected.laplacian).epsilon(1e-12));
+    REQUIRE(found.patchArea.size() == expected.patchArea.size());
+    double sum[3] = {0, 0, 0};
+    for (std::size_t p = 0; p < expected.patchArea.size(); ++p)
+    {
+        CHECK(share.patches[p].name == whole.patches[p].name);
+        CHECK(share.patches[p].type == whole.patches[p].type);
+        CHECK(found.patchArea[p] == doctest::Approx(expected.patchArea[p]).epsilon(1e-12));
+        CHECK(found.nodalPatchArea[p] == doctest::Approx(expected.patchArea[p]).epsilon(1e-12));
+        for (int d = 0; d < 3; ++d)
+        {
+            sum[d] += found.patchNormal[p][d];
+        }
+    }
+    for (const double component : sum)
+    {
+        CHECK(std::abs(component) < 1e-12); // a closed surface
+    }
+}
+
+/// The mesh whole and decomposed. volumeTolerance: simplices use a diagonal of warped faces, OpenFOAM their centre.
+void checkCase(const std::string& name, int dim, double volumeTolerance)
+{
+    const FoamMesh whole(name, MPI_COMM_SELF);
+    REQUIRE(whole.message() == "");
+    CHECK(whole.adapter().mesh.dim == dim);
+    checkWhole(whole, volumeTolerance);
+
+    const FoamMesh share(name, MPI_COMM_WORLD);
+    REQUIRE(share.message() == "");
+    CHECK(cellVolumeError(share.foam(), share.adapter()) < volumeTolerance);
+    CHECK(pointError(share.foam(), share.adapter()) == 0);
+    CHECK(share.adapter().mesh.thickness == whole.adapter().mesh.thickness);
+    compare(whole.adapter().mesh, share.adapter().mesh);
+}
+
+} // namespace
+
+TEST_CASE("2D: dam-break tank with an obstacle in the x-y plane")
+{
+    checkCase("obstacle", 2, 1e-10);
+    const FoamMesh whole("obstacle", MPI_COMM_SELF);
+    const SimplexMesh& mesh = whole.adapter().mesh;
+    CHECK(mesh.nElements == 2 * whole.foam().nCells());
+    CHECK(2 * mesh.nNodes == whole.foam().nPoints());
+    CHECK(mesh.patches.size() == 4);
+    CHECK(mesh.axes == std::array<int, 3>{0, 1, 2});
+    CHECK(mesh.thickness == doctest::Approx(0.0146));
+    CHECK(mesh.planeOffset == doctest::Approx(0.0073));
+}
+
+TEST_CASE("2D: locally refined block in the x-z plane")
+{
+    checkCase("upright", 2, 1e-10);
+    const FoamMesh whole("upright", MPI_COMM_SELF);
+    const SimplexMesh& mesh = whole.adapter().mesh;
+    CHECK(whole.foam().nCells() > 160);
+    CHECK(mesh.nElements > 2 * whole.foam().nCells()); // cells with hanging points give more than two
+    CHECK(mesh.axes == std::array<int, 3>{2, 0, 1});
+    CHECK(mesh.spacePoint(0)[1] == doctest::Approx(0));
+}
+
+TEST_CASE("3D: graded and skewed blocks")
+{
+    checkCase("skewed", 3, 0.02);
+    const FoamMesh whole("skewed", MPI_COMM_SELF);
+    CHECK(whole.adapter().mesh.nElements == 6 * whole.foam().nCells());
+    CHECK(whole.adapter().mesh.nNodes == whole.foam().nPoints());
+}
+
+TEST_CASE("3D: polyhedra of snappyHexMesh")
+{
+    checkCase("sphere", 3, 0.05);
+    const FoamMesh whole("sphere", MPI_COMM_SELF);
+    const Foam::cellModel& hex = Foam::cellModel::ref(Foam::cellModel::HEX);
+    int nPolyhedra = 0;
+    for (const Foam::cellShape& shape : whole.foam().cellShapes())
+    {
+        nPolyhedra += shape.model() != hex;
+    }
+    CHECK(nPolyhedra > 100);
+    CHECK(whole.adapter().mesh.patches.back().name == "ball");
+}
+
+TEST_CASE("meshes that cannot be solved are refused with the reason")
+{
+    const auto expectMessage = [](const std::string& name, const std::string& text)
+    {
+        const FoamMesh whole(name, MPI_COMM_SELF);
+        INFO(whole.message());
+        CHECK(whole.message().find(text) != std::string::npos);
+    };
+    expectMessage("cyclic", "patch x0");
+    expectMessage("cyclic", "type cyclic");
+    expectMessage("wedge", "type wedge");
+    expectMessage("layers", "not one cell thick");
+}

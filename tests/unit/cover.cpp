@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/coverBuilder.hpp"
+#include "support/boxMesh.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+using namespace flotsam;
+
+namespace
+{
+
+struct Scene
+{
+    SimplexMesh mesh;
+    NodeGraph graph;
+    Halo halo;
+
+    Scene(int dim, int n, MPI_Comm comm = MPI_COMM_WORLD)
+        : mesh(makeBoxMesh(comm, dim, {n, n, n}, {-1, -1, -1}, {1, 1, 1}, 0.15, true)), graph(mesh), halo(mesh, comm)
+    {
+    }
+};
+
+Solid makeSolid(std::shared_ptr<const Shape> shape, const Vec3& position, Solid::Kind kind)
+{
+    Solid s;
+    s.kind = kind;
+    s.shape = std::move(shape);
+    s.pose.position = position;
+    s.pose.orientation = Eigen::AngleAxisd(0.4, Vec3::UnitZ()) * Eigen::AngleAxisd(kind == Solid::Kind::Fixed ? 0 : 0.2, Vec3::UnitX());
+    return s;
+}
+
+/// A fixed cylinder, a box and a sphere that move, box and cylinder close to each other.
+std::vector<Solid> makeSolids(double time)
+{
+    return {makeSolid(makeCylinder({0, 0, -0.6}, {0, 0, 0.6}, 0.2), {-0.45, 0.1, 0}, Solid::Kind::Fixed),
+            makeSolid(makeBox(Vec3::Zero(), {0.5, 0.3, 1}), {0.08 + 0.05 * time, 0.11, 0.02}, Solid::Kind::Free),
+            makeSolid(makeSphere(Vec3::Zero(), 0.25), {0.4, -0.45 - 0.1 * time, 0.03}, Solid::Kind::Prescribed)};
+}
+
+/// Totals that must not depend on the order in which a cover was made.
+std::vector<double> summary(const Scene& scene, const Cover& cover)
+{
+    const SimplexMesh& mesh = scene.mesh;
+    std::vector<double> sums(12, 0);
+    for (int e = 0; e < mesh.nElements; ++e)
+    {
+        if (!mesh.isOwnedElement[e]) continue;
+        sums[static_cast<int>(cover.state[e])] += 1;
+        if (cover.cutIndex[e] < 0) continue;
+        const CutElement& cut = cover.cuts[cover.cutIndex[e]];
+        sums[3] += cut.volume;
+        for (int f = cut.facetStart; f < cut.facetEnd; ++f) sums[4 + cover.facets[f].solid] += cover.facets[f].area;
+    }
+    for (int i = 0; i < mesh.nOwned; ++i) sums[7] += cover.isActiveNode[i];
+    for (const GhostFace& ghost : cover.ghostFaces)
+    {
+        // half from either side: once over all ranks
+        const int e = scene.graph.faces[ghost.face].element[0], other = scene.graph.faces[ghost.face].element[1];
+        const double share = 0.5 * (mesh.isOwnedElement[e] + mesh.isOwnedElement[other]);
+        sums[8] += share;
+        sums[9] += share * ghost.area;
+    }
+    scene.halo.sum(sums.data(), static_cast<int>(sums.size()));
+    sums[10] = static_cast<double>(cover.nSharedElements);
+    sums.insert(sums.end(), cover.solidVolume.begin(), cover.solidVolume.end());
+    sums.insert(sums.end(), cover.solidArea.begin(), cover.solidArea.end());
+    return sums;
+}
+
+void checkSame(const std::vector<double>& a, const std::vector<double>& b)
+{
+    REQUIRE(a.size() == b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) CHECK(a[i] == doctest::Approx(b[i]).epsilon(1e-12));
+}
+
+} // namespace
+
+TEST_CASE("states, cut indices and facets fit together")
+{
+    for (const int dim : {2, 3})
+    {
+        const Scene scene(dim, dim == 2 ? 40 : 16);
+        const SimplexMesh& mesh = scene.mesh;
+        const std::vector<Solid> solids = makeSolids(0);
+        CoverBuilder builder(mesh, scene.graph, scene.halo);
+        const Cover& cover = builder.build(solids);
+        std::vector<char> isActive(mesh.nNodes, 0);
+        int wrong = 0;
+        for (int e = 0; e < mesh.nElements; ++e)
+        {
+            const ElementState state = cover.state[e];
+            const bool isCut = state == ElementState::Cut;
+            if (isCut != (cover.cutIndex[e] >= 0) || (isCut && cover.cuts[cover.cutIndex[e]].element != e)) ++wrong;
+            for (int a = 0; a <= dim; ++a)
+            {
+                const int i = mesh.elements[e * (dim + 1) + a];
+                if (state != ElementState::Solid) isActive[i] = 1;
+                if ((cover.distance[i] < 0) != (state == ElementState::Solid) && !isCut) ++wrong;
+            }
+        }
+        CHECK(wrong == 0);
+        for (int i = 0; i < mesh.nOwned; ++i)
+            if (isActive[i] != cover.isActiveNode[i]) ++wrong;
+        CHECK(wrong == 0);
+        for (const CutElement& cut : cover.cuts)
+        {
+            CHECK(cut.volume > 0);
+            CHECK(cut.volume < mesh.volume[cut.element]);
+            for (int f = cut.facetStart; f < cut.facetEnd; ++f)
+            {
+                CHECK(cover.facets[f].element == cut.element);
+                CHECK(cover.facets[f].solid >= 0);
+            }
+        }
+        for (const GhostFace& ghost : cover.ghostFaces)
+        {
+            const InteriorFace& face = scene.graph.faces[ghost.face];
+            int nCut = 0;
+            for (int e : face.element)
+            {
+                CHECK(cover.state[e] != ElementState::Solid);
+                nCut += cover.state[e] == ElementState::Cut;
+            }
+            CHECK(nCut > 0);
+        }
+        // nodal distances are the nearest solid's, and known wherever they are small
+        for (int i = 0; i < mesh.nNodes; ++i)
+        {
+            const auto x = mesh.spacePoint(i);
+            double exact = farDistance;
+            for (const Solid& s : solids) exact = std::min(exact, s.distance({x[0], x[1], x[2]}));
+            if (cover.distance[i] < farDistance) CHECK(cover.distance[i] == doctest::Approx(exact).epsilon(1e-12));
+            else CHECK(exact > 2 * 2.0 / (dim == 2 ? 40 : 16) * 0.7);
+        }
+    }
+}
+
+TEST_CASE("a cover updated while solids move is the cover made anew")
+{
+    for (const int dim : {2, 3})
+    {
+        const Scene scene(dim, dim == 2 ? 30 : 12);
+        CoverBuilder moving(scene.mesh, scene.graph, scene.halo);
+        for (const double time : {0.0, 1.0, 2.0, 0.5})
+        {
+            const std::vector<Solid> solids = makeSolids(time);
+            const Cover fresh = cutMesh(scene.mesh, scene.graph, scene.halo, solids);
+            const Cover& cover = moving.build(solids);
+            checkSame(summary(scene, cover), summary(scene, fresh));
+            CHECK(cover.distance == fresh.distance);
+            CHECK(cover.nearestSolid == fresh.nearestSolid);
+            CHECK(cover.isActiveNode == fresh.isActiveNode);
+            CHECK(std::equal(cover.state.begin(), cover.state.end(), fresh.state.begin()));
+        }
+    }
+}
+
+TEST_CASE("the cover does not depend on the number of ranks")
+{
+    for (const int dim : {2, 3})
+    {
+        const int n = dim == 2 ? 30 : 12;
+        const Scene parallel(dim, n), serial(dim, n, MPI_COMM_SELF);
+        std::vector<Solid> solids = makeSolids(0), solidsSerial = solids;
+        CoverBuilder builder(parallel.mesh, parallel.graph, parallel.halo), builderSerial(serial.mesh, serial.graph, serial.halo);
+        for (int call = 0; call < 2; ++call)
+        {
+            const Cover& cover = builder.buildExactVolume(solids);
+            const Cover& coverSerial = builderSerial.buildExactVolume(solidsSerial);
+            checkSame(summary(parallel, cover), summary(serial, coverSerial));
+            CHECK(solids[1].offset == doctest::Approx(solidsSerial[1].offset).epsilon(1e-10));
+            std::map<std::int64_t, int> active;
+            for (int i = 0; i < serial.mesh.nNodes; ++i) active[serial.mesh.originalNode[i]] = coverSerial.isActiveNode[i];
+            int wrong = 0;
+            for (int i = 0; i < parallel.mesh.nNodes; ++i) wrong += active[parallel.mesh.originalNode[i]] != cover.isActiveNode[i];
+            CHECK(wrong == 0);
+        }
+    }
+}
+
+TEST_CASE("surfaces that lie in the mesh's nodes and faces")
+{
+    // a box whose faces are mesh planes: its volume and area are exact, nodes on it count as solid
+    for (const int dim : {2, 3})
+    {
+        SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, dim, {8, 8, 8}, {-1, -1, -1}, {1, 1, 1});
+        const NodeGraph graph(mesh);
+        const Halo halo(mesh, MPI_COMM_WORLD);
+        std::vector<Solid> solids(1);
+        solids[0].shape = makeBox(Vec3::Zero(), Vec3::Constant(1));
+        const Cover cover = cutMesh(mesh, graph, halo, solids);
+        CHECK(cover.solidVolume[0] == doctest::Approx(1).epsilon(1e-10));
+        CHECK(cover.solidArea[0] == doctest::Approx(2 * dim).epsilon(1e-10));
+        for (int i = 0; i < mesh.nNodes; ++i) CHECK(cover.distance[i] != 0);
+        for (const CutElement& cut : cover.cuts) CHECK(cut.facetEnd > cut.facetStart);
+    }
+}
+
+TEST_CASE("elements between two solids are counted and their facets belong to the nearer one")
+{
+    const Scene scene(2, 20);
+    const double gap = 0.03; // h = 0.1
+    std::vector<Solid> solids{makeSolid(makeBox({-0.25 - gap / 2, 0, 0}, {0.5, 0.5, 1}), Vec3::Zero(), Solid::Kind::Fixed),
+                              makeSolid(makeBox({0.25 + gap / 2, 0, 0}, {0.5, 0.5, 1}), Vec3::Zero(), Solid::Kind::Fixed)};
+    const Cover near = cutMesh(scene.mesh, scene.graph, scene.halo, solids);
+    CHECK(near.nSharedElements > 0);
+    for (const CutFacet& facet : near.facets)
+    {
+        Vec3 x = Vec3::Zero();
+        for (int q = 0; q < facet.nPoints; ++q)
+            for (int a = 0; a <= 2; ++a)
+            {
+                const auto y = scene.mesh.spacePoint(scene.mesh.elements[3 * facet.element + a]);
+                x += facet.shape[q][a] / facet.nPoints * Vec3(y[0], y[1], y[2]);
+            }
+        CHECK(solids[facet.solid].distance(x) <= solids[1 - facet.solid].distance(x) + 1e-3);
+    }
+    solids[1].pose.position[0] += 0.4;
+    CHECK(cutMesh(scene.mesh, scene.graph, scene.halo, solids).nSharedElements == 0);
+}
+
+TEST_CASE("no solids: all fluid")
+{
+    const Scene scene(3, 6);
+    const Cover cover = cutMesh(scene.mesh, scene.graph, scene.halo, {});
+    CHECK(cover.cuts.empty());
+    CHECK(cover.ghostFaces.empty());
+    CHECK(std::count(cover.isActiveNode.begin(), cover.isActiveNode.end(), 1) == scene.mesh.nNodes);
+}

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/cutSimplex.hpp"
+
+#include <Eigen/Dense>
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <random>
+#include <vector>
+
+using namespace flotsam;
+
+namespace
+{
+
+template <int dim>
+struct Simplex
+{
+    using Vector = Eigen::Matrix<double, dim, 1>;
+    double vertices[(dim + 1) * dim];
+    double gradN[(dim + 1) * dim];
+    double volume;
+
+    explicit Simplex(const std::array<Vector, dim + 1>& x)
+    {
+        Eigen::Matrix<double, dim, dim> edges;
+        for (int a = 0; a <= dim; ++a) Eigen::Map<Vector>(vertices + a * dim) = x[a];
+        for (int a = 0; a < dim; ++a) edges.col(a) = x[a + 1] - x[0];
+        volume = std::abs(edges.determinant()) / (dim == 2 ? 2 : 6);
+        const Eigen::Matrix<double, dim, dim> g = edges.inverse();
+        Vector first = Vector::Zero();
+        for (int a = 1; a <= dim; ++a)
+        {
+            Eigen::Map<Vector>(gradN + a * dim) = g.row(a - 1).transpose();
+            first -= g.row(a - 1).transpose();
+        }
+        Eigen::Map<Vector>(gradN + 0) = first;
+    }
+    SimplexCut<dim> cut(const double* distance) const { return cutSimplex<dim>(distance, volume, vertices, gradN); }
+};
+
+template <int dim>
+Simplex<dim> randomSimplex(std::mt19937& generator, double scale = 1)
+{
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    for (;;)
+    {
+        std::array<typename Simplex<dim>::Vector, dim + 1> x;
+        for (auto& p : x)
+            for (int d = 0; d < dim; ++d) p[d] = scale * uniform(generator);
+        const Simplex<dim> simplex(x);
+        if (simplex.volume > 0.05 * std::pow(scale, dim)) return simplex;
+    }
+}
+
+template <int dim>
+Simplex<dim> unitSimplex()
+{
+    std::array<typename Simplex<dim>::Vector, dim + 1> x;
+    x[0].setZero();
+    for (int d = 0; d < dim; ++d) x[d + 1] = Simplex<dim>::Vector::Unit(d);
+    return Simplex<dim>(x);
+}
+
+/// Distances with the given signs (bit a: node a is fluid), magnitudes from 1e-9 to 1.
+template <int dim>
+void fillDistance(std::mt19937& generator, int pattern, double* distance)
+{
+    std::uniform_real_distribution<double> exponent(-9, 0);
+    for (int a = 0; a <= dim; ++a) distance[a] = std::pow(10, exponent(generator)) * (pattern >> a & 1 ? 1 : -1);
+}
+
+template <int dim>
+double exactSecond(int a, int b, double volume) { return volume * (a == b ? 2 : 1) / ((dim + 1) * (dim + 2)); }
+
+template <int dim>
+void checkParts(double scale)
+{
+    std::mt19937 generator(7);
+    double worst = 0, worstArea = 0;
+    for (int pattern = 1; pattern < (1 << (dim + 1)) - 1; ++pattern)
+        for (int repeat = 0; repeat < 50; ++repeat)
+        {
+            const Simplex<dim> simplex = randomSimplex<dim>(generator, scale);
+            double distance[dim + 1], reversed[dim + 1];
+            fillDistance<dim>(generator, pattern, distance);
+            for (int a = 0; a <= dim; ++a) reversed[a] = -distance[a];
+            const SimplexCut<dim> fluid = simplex.cut(distance), solid = simplex.cut(reversed);
+            const double v = simplex.volume;
+            worst = std::max(worst, std::abs(fluid.volume + solid.volume - v) / v);
+            worst = std::max(worst, std::abs(fluidFraction<dim>(distance).value - fluid.volume / v));
+            double areas[2] = {0, 0};
+            for (int f = 0; f < fluid.nFacets; ++f) areas[0] += fluid.facets[f].area;
+            for (int f = 0; f < solid.nFacets; ++f) areas[1] += solid.facets[f].area;
+            worstArea = std::max(worstArea, std::abs(areas[0] - areas[1]) / std::pow(v, (dim - 1.0) / dim));
+            for (int a = 0; a <= dim; ++a)
+            {
+                worst = std::max(worst, std::abs(fluid.first[a] + solid.first[a] - v / (dim + 1)) / v);
+                for (int b = 0; b <= dim; ++b)
+                {
+                    const int ab = a * (dim + 1) + b;
+                    worst = std::max(worst, std::abs(fluid.second[ab] + solid.second[ab] - exactSecond<dim>(a, b, v)) / v);
+                }
+            }
+        }
+    CHECK(worst < 3e-14); // three dropped parts at most
+    CHECK(worstArea < 1e-12); // cut points move by round-off of the coordinates
+}
+
+/// The integrals of 1, x_0, x_0^2 over the part x_0 < s of the unit simplex are known.
+template <int dim>
+void checkPlaneCut(double s)
+{
+    const Simplex<dim> simplex = unitSimplex<dim>();
+    double distance[dim + 1];
+    for (int a = 0; a <= dim; ++a) distance[a] = s - (a == 1 ? 1 : 0); // fluid: x_0 < s
+    const SimplexCut<dim> cut = simplex.cut(distance);
+    const double r = 1 - s, rest = dim == 2 ? r * r / 2 : r * r * r / 6;
+    CHECK(cut.volume == doctest::Approx(simplex.volume - rest).epsilon(1e-14));
+    // over the cut-off corner (1-s times the unit simplex, x_0 = s + r y_0)
+    const double m0 = dim == 2 ? 1.0 / 2 : 1.0 / 6, m1 = m0 / (dim + 1), m2 = 2 * m0 / ((dim + 1) * (dim + 2));
+    const double scale = std::pow(r, dim);
+    const double first = m1 - scale * (s * m0 + r * m1), second = m2 - scale * (s * s * m0 + 2 * s * r * m1 + r * r * m2);
+    CHECK(cut.first[1] == doctest::Approx(first).epsilon(1e-13));
+    CHECK(cut.second[dim + 2] == doctest::Approx(second).epsilon(1e-13));
+
+    CHECK(cut.normal[0] == doctest::Approx(1));
+    REQUIRE(cut.nFacets == 1);
+    CHECK(cut.facets[0].area == doctest::Approx(dim == 2 ? r : r * r / 2).epsilon(1e-14));
+    // degree 2 along the facet: int x_1^2 = r^3/3 (edge) or r^4/12 (triangle)
+    double square = 0, weights = 0;
+    for (int q = 0; q < dim; ++q)
+    {
+        square += cut.facets[0].weight[q] * std::pow(cut.facets[0].shape[q][2], 2);
+        weights += cut.facets[0].weight[q];
+    }
+    CHECK(square == doctest::Approx(dim == 2 ? r * r * r / 3 : std::pow(r, 4) / 12).epsilon(1e-13));
+    CHECK(weights == doctest::Approx(cut.facets[0].area).epsilon(1e-15));
+}
+
+} // namespace
+
+TEST_CASE_TEMPLATE("fluid part and solid part make the element: all sign patterns, any size", Dim, std::integral_constant<int, 2>,
+                   std::integral_constant<int, 3>)
+{
+    for (const double scale : {1e-6, 1.0, 1e6}) checkParts<Dim::value>(scale);
+}
+
+TEST_CASE_TEMPLATE("plane cut: volume, moments, area and quadrature exact", Dim, std::integral_constant<int, 2>,
+                   std::integral_constant<int, 3>)
+{
+    for (const double s : {1e-3, 0.25, 0.5, 0.9}) checkPlaneCut<Dim::value>(s);
+}
+
+TEST_CASE("two fluid nodes: the facet is a rectangle with exact quadrature of degree 2")
+{
+    // cut by x = s between the nodes {0, 2} and {1, 3}
+    const Simplex<3> simplex({Eigen::Vector3d(0, 0, 0), {1, 0, 0}, {0, 1, 0}, {1, 0, 1}});
+    const double s = 0.4, distance[4] = {s, s - 1, s, s - 1};
+    const SimplexCut<3> cut = simplex.cut(distance);
+    REQUIRE(cut.nFacets == 2);
+    // section x = s: y in [0, 1-s], z in [0, s]
+    double area = 0, integral = 0;
+    for (int f = 0; f < 2; ++f)
+        for (int q = 0; q < 3; ++q)
+        {
+            const SimplexFacet<3>& facet = cut.facets[f];
+            const double y = facet.shape[q][2], z = facet.shape[q][3], x = facet.shape[q][1] + facet.shape[q][3];
+            CHECK(x == doctest::Approx(s));
+            area += facet.weight[q];
+            integral += facet.weight[q] * (y * z + z * z);
+        }
+    CHECK(area == doctest::Approx(s * (1 - s)).epsilon(1e-14));
+    CHECK(integral == doctest::Approx(s * s / 2 * (1 - s) * (1 - s) / 2 + (1 - s) * s * s * s / 3).epsilon(1e-13));
+}
+
+TEST_CASE_TEMPLATE("slope of the fluid share is the facet's area over |grad distance|", Dim, std::integral_constant<int, 2>,
+                   std::integral_constant<int, 3>)
+{
+    constexpr int dim = Dim::value;
+    std::mt19937 generator(3);
+    for (int pattern = 1; pattern < (1 << (dim + 1)) - 1; ++pattern)
+    {
+        const Simplex<dim> simplex = randomSimplex<dim>(generator);
+        double distance[dim + 1], gradient[dim] = {}, area = 0, length = 0;
+        std::uniform_real_distribution<double> uniform(0.1, 1);
+        for (int a = 0; a <= dim; ++a) distance[a] = uniform(generator) * (pattern >> a & 1 ? 1 : -1);
+        for (int a = 0; a <= dim; ++a)
+            for (int d = 0; d < dim; ++d) gradient[d] += distance[a] * simplex.gradN[a * dim + d];
+        for (int d = 0; d < dim; ++d) length += gradient[d] * gradient[d];
+        const SimplexCut<dim> cut = simplex.cut(distance);
+        for (int f = 0; f < cut.nFacets; ++f) area += cut.facets[f].area;
+        CHECK(fluidFraction<dim>(distance).slope * simplex.volume == doctest::Approx(area / std::sqrt(length)).epsilon(1e-12));
+    }
+}
+
+TEST_CASE_TEMPLATE("divergence theorem on a cut corner", Dim, std::integral_constant<int, 2>,
+                   std::integral_constant<int, 3>)
+{
+    // dim*volume = int x.n over the boundary; with the origin at the one fluid corner only the facet contributes
+    constexpr int dim = Dim::value;
+    std::mt19937 generator(11);
+    for (int corner = 0; corner <= dim; ++corner)
+    {
+        const Simplex<dim> simplex = randomSimplex<dim>(generator);
+        double distance[dim + 1], flux = 0;
+        fillDistance<dim>(generator, 1 << corner, distance);
+        distance[corner] = 0.7;
+        const SimplexCut<dim> cut = simplex.cut(distance);
+        for (int f = 0; f < cut.nFacets; ++f)
+            for (int q = 0; q < dim; ++q)
+                for (int d = 0; d < dim; ++d)
+                {
+                    double x = -simplex.vertices[corner * dim + d];
+                    for (int a = 0; a <= dim; ++a) x += cut.facets[f].shape[q][a] * simplex.vertices[a * dim + d];
+                    flux += cut.facets[f].weight[q] * x * cut.normal[d];
+                }
+        CHECK(flux == doctest::Approx(dim * cut.volume).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("parts of floating point size have no facet and no volume")
+{
+    const Simplex<3> simplex = unitSimplex<3>();
+    const double corner[4] = {1e-12, -1, -1, -1};
+    const SimplexCut<3> cut = simplex.cut(corner);
+    CHECK(cut.nFacets == 0);
+    CHECK(cut.volume == 0);
+}

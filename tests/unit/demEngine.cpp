@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "unit/demSupport.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+
+using namespace flotsam;
+using namespace demTest;
+
+namespace
+{
+
+long openFiles()
+{
+    using Iterator = std::filesystem::directory_iterator;
+    return std::distance(Iterator("/proc/self/fd"), Iterator());
+}
+
+} // namespace
+
+TEST_CASE("bodies start exactly where they were put")
+{
+    BodyDefinition a = debris(Vec3(0.1, 0.2, 0.3)), b = ball(0.01, 0.2, Vec3(-0.2, 0, 0));
+    a.pose.orientation = Eigen::Quaterniond(0.5, -0.5, 0.5, 0.5);
+    a.motion = {Vec3(1, 2, 3), Vec3(4, 5, 6)};
+    const LiggghtsEngine engine(scene({a, b}, {}));
+    const auto states = engine.states();
+    CHECK(states[0].pose.position == a.pose.position);
+    CHECK(states[0].pose.orientation.coeffs() == a.pose.orientation.coeffs());
+    CHECK(states[0].motion.velocity == a.motion.velocity);
+    CHECK((states[0].motion.angularVelocity - a.motion.angularVelocity).norm() < 1e-14);
+    CHECK(states[1].pose.position == b.pose.position);
+}
+
+TEST_CASE("a constant load gives the exact parabola in one step or many")
+{
+    const DemSetup setup = scene({debris(Vec3::Zero())}, {});
+    for (const double largest : {1e-2, 1e-4, 1e-5})
+    {
+        LiggghtsEngine engine(setup);
+        Vec3 v = Vec3::Zero(), x = Vec3::Zero();
+        const double duration = 0.01;
+        for (const Vec3& force : {Vec3(0.3, -0.7, 1.1), Vec3(-1.0, 0.2, 0.4)})
+        {
+            const Vec3 moment = 1e-4 * force;
+            const Vec3 before = engine.states()[0].angularMomentum;
+            engine.setLoads({{force, moment}});
+            engine.advance(duration, largest);
+            const Vec3 acceleration = force / setup.bodies[0].mass;
+            x += v * duration + 0.5 * acceleration * duration * duration;
+            v += acceleration * duration;
+            const BodyState state = engine.states()[0];
+            CHECK((state.motion.velocity - v).norm() < 1e-12);
+            CHECK((state.pose.position - x).norm() < 1e-14);
+            CHECK((state.angularMomentum - before - moment * duration).norm() < 1e-17);
+            CHECK_FALSE(engine.hasContact());
+            CHECK(engine.meanContactLoads()[0].force.norm() == 0);
+            CHECK(engine.subSteps() == std::lround(duration / largest));
+        }
+    }
+}
+
+TEST_CASE("large steps while nothing is near, contact steps otherwise")
+{
+    DemSetup setup = scene({ball(0.01, 0.01, Vec3(0, 0, 0.1))}, {plane(Vec3::Zero(), Vec3::UnitZ())});
+    setup.bodies[0].motion.velocity = Vec3(0, 0, -1);
+    LiggghtsEngine engine(setup);
+    engine.advance(1e-3, 1e-4);
+    CHECK(engine.subSteps() == 10);
+    for (int i = 0; i < 88; ++i)
+        engine.advance(1e-3, 1e-4);
+    CHECK(engine.subSteps() == 10);
+    engine.advance(2e-3, 1e-4);
+    CHECK(engine.subSteps() == std::lround(std::ceil(2e-3 / engine.timeStep())));
+    CHECK(engine.hasContact());
+    for (int i = 0; i < 20; ++i)
+        engine.advance(1e-3, 1e-4);
+    CHECK_FALSE(engine.hasContact());
+    CHECK(engine.subSteps() == 10);
+}
+
+TEST_CASE("held bodies stay, carry their contact load, and fall when released")
+{
+    DemSetup setup = scene({ball(0.01, 0.1, Vec3(0, 0, 0.05)), ball(0.01, 0.1, Vec3(0, 0, 0.0699))}, {});
+    LiggghtsEngine engine(setup);
+    engine.setHeld({1, 0});
+    engine.setLoads(weights(setup));
+    for (int i = 0; i < 200; ++i)
+        engine.advance(1e-3);
+    CHECK(engine.states()[0].pose.position == setup.bodies[0].pose.position);
+    CHECK(engine.meanContactLoads()[0].force.z() == doctest::Approx(-0.1 * gravity).epsilon(1e-3));
+    CHECK((engine.meanContactLoads()[0].force + engine.meanContactLoads()[1].force).norm() < 1e-12);
+    engine.setHeld({0, 0});
+    for (int i = 0; i < 100; ++i)
+        engine.advance(1e-3);
+    CHECK(engine.states()[0].motion.velocity.z() == doctest::Approx(-0.1 * gravity).epsilon(1e-2));
+}
+
+TEST_CASE("planar bodies keep to their plane")
+{
+    BodyDefinition disc = ball(0.01, 0.01, Vec3(0, 0, 0.0099));
+    disc.isPlanar = true;
+    disc.planeAxis = 1;
+    DemSetup setup = scene({disc}, {plane(Vec3::Zero(), Vec3::UnitZ())});
+    LiggghtsEngine engine(setup);
+    engine.setLoads({{Vec3(0.05, 0.3, -0.1), Vec3(1e-4, 2e-5, 1e-4)}});
+    for (int i = 0; i < 50; ++i)
+        engine.advance(1e-3);
+    const BodyState state = engine.states()[0];
+    CHECK(state.pose.position.y() == 0);
+    CHECK(state.pose.position.x() > 0.001);
+    CHECK(state.motion.angularVelocity.x() == 0);
+    CHECK(state.motion.angularVelocity.z() == 0);
+    CHECK(std::abs(state.motion.angularVelocity.y()) > 1);
+}
+
+TEST_CASE("errors inside LIGGGHTS are thrown, and the next engine works")
+{
+    DemSetup bad = scene({ball(0.01, 0.1, Vec3::Zero())}, {});
+    bad.walls.push_back(block(Vec3::Zero(), Vec3::Ones()));
+    bad.walls[0].name = "broken";
+    bad.walls[0].surface.triangles.clear();
+    CHECK_THROWS_WITH_AS(LiggghtsEngine {bad}, doctest::Contains("broken"), DemError);
+    bad.walls.clear();
+    bad.bodies[0].spheres.clear();
+    CHECK_THROWS_WITH_AS(LiggghtsEngine {bad}, doctest::Contains("ball"), DemError);
+    bad = scene({ball(0.01, 0.1, Vec3::Zero())}, {});
+    bad.laws[0].restitution = 0;
+    CHECK_THROWS_AS(LiggghtsEngine {bad}, DemError);
+    LiggghtsEngine good(scene({ball(0.01, 0.1, Vec3::Zero())}, {}));
+    good.advance(1e-3);
+}
+
+TEST_CASE("a body that leaves is named")
+{
+    DemSetup setup = scene({ball(0.01, 0.1, Vec3::Zero())}, {});
+    setup.bodies[0].name = "runaway";
+    setup.bodies[0].motion.velocity = Vec3(0, 0, -30);
+    LiggghtsEngine engine(setup);
+    engine.advance(0.05, 1e-3); // outside the box, but not far: it grows
+    CHECK_THROWS_WITH_AS(engine.advance(0.05, 1e-3), doctest::Contains("runaway"), DemError);
+}
+
+TEST_CASE("opening and closing leaks no file")
+{
+    const DemSetup setup = heap(2, true);
+    { LiggghtsEngine first(setup); }
+    const long before = openFiles();
+    for (int i = 0; i < 100; ++i)
+        LiggghtsEngine engine(setup);
+    CHECK(openFiles() == before);
+}

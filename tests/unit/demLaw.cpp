@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "demCoupling/liggghts/contactLaw.hpp"
+#include "unit/demSupport.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace flotsam;
+using namespace demTest;
+
+TEST_CASE("restitution without attraction agrees with integrating the contact")
+{
+    for (const double beta : {0.05, 0.3, 0.73123, 0.99, 1.0, 1.3, 3.0})
+    {
+        double x = 0, v = 1;
+        const double dt = 1e-5;
+        while (true)
+        {
+            const double a = -x - 2 * beta * v;
+            if (a > 0)
+                break; // the force would pull: it is cut, and the speed stays
+            const double xm = x + 0.5 * dt * v, vm = v + 0.5 * dt * a;
+            x += dt * vm;
+            v += dt * (-xm - 2 * beta * vm);
+        }
+        CHECK(restitutionOf(beta) == doctest::Approx(-v).epsilon(1e-3));
+    }
+    for (const double e : {0.01, 0.1, 0.2, 0.5, 0.9, 1.0})
+        CHECK(restitutionOf(dampingRatioFor(e)) == doctest::Approx(e).epsilon(1e-9));
+    CHECK(dampingRatioFor(0.2) == doctest::Approx(0.73123).epsilon(1e-4));
+}
+
+TEST_CASE("spheres of the flattest face")
+{
+    CHECK(flattestFaceCount(debris(Vec3::Zero())) == 40);
+    CHECK(flattestFaceCount(ball(0.1, 1, Vec3::Zero())) == 1);
+    BodyDefinition flat = debris(Vec3::Zero());
+    flat.isPlanar = true;
+    flat.planeAxis = 1;
+    CHECK(flattestFaceCount(flat) == 40);
+    for (SurfaceSphere& s : flat.spheres)
+        s.centre.y() = 0; // all spheres in the plane of motion: they never land on it together
+    CHECK(flattestFaceCount(flat) == 40);
+}
+
+TEST_CASE("classes: one per material, mass and face; shared when there are very many")
+{
+    DemSetup setup = scene({ball(0.01, 0.1, Vec3::Zero()), ball(0.02, 0.1, Vec3::Zero()), ball(0.01, 0.3, Vec3::Zero())},
+                           {plane(Vec3::Zero(), Vec3::UnitZ())});
+    const ContactTable table = makeContactTable(setup);
+    CHECK(table.classOfBody == std::vector<int> {0, 0, 1});
+    CHECK(table.classOfWall == std::vector<int> {2});
+    const double c = 2 * dampingRatioFor(0.2) * std::sqrt(1e6);
+    CHECK(table.damping[1] == doctest::Approx(c * std::sqrt(0.1 * 0.3 / 0.4)));
+    CHECK(table.damping[2] == doctest::Approx(c * std::sqrt(0.1)));
+    setup.bodies.clear();
+    for (int i = 0; i < 200; ++i)
+        setup.bodies.push_back(ball(0.01, 0.1 * (1 + 0.01 * i), Vec3::Zero()));
+    CHECK(makeContactTable(setup).size() <= 33);
+    setup.bodies[7].material = 3;
+    CHECK_THROWS_AS(makeContactTable(setup), DemError);
+}

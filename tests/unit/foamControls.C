@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Controls: defaults, OpenFOAM's own forms of entries, and one message for every mistake.
+#include "foam/controlsReader.H"
+#include "foam/dictionaryChecks.H"
+#include "support/foamCase.H"
+
+#include "OStringStream.H"
+
+#include <doctest/doctest.h>
+
+using namespace flotsam;
+
+namespace
+{
+
+bool has(const std::string& s, const std::string& part)
+{
+    const bool found = s.find(part) != std::string::npos;
+    if (!found) MESSAGE("message was: " << s);
+    return found;
+}
+
+std::string transportMessage(const std::string& contents)
+{
+    return messageOf([&] { CaseControls c; readTransport(parse(contents), c); });
+}
+
+std::string numericsMessage(const std::string& contents)
+{
+    return messageOf([&] { readNumerics(parse("flotsam { " + contents + " }")); });
+}
+
+const std::string water = "water { transportModel Newtonian; nu 1e-06; rho 1000; } ", air = "air { nu [0 2 -1 0 0 0 0] 1.48e-05; rho rho [1 -3 0 0 0 0 0] 1; } ";
+
+}
+
+TEST_CASE("no sub-dictionary flotsam: every number has its default; what is given is taken")
+{
+    const NumericsControls none = readNumerics(parse("PIMPLE {}")), byDefault;
+    CHECK(none.nitscheGamma == byDefault.nitscheGamma);
+    CHECK(none.maxIterations == byDefault.maxIterations);
+    const NumericsControls given = readNumerics(parse("flotsam { nitsche off; gravityLayers 3; ghostPressure 0.2; }"));
+    CHECK_FALSE(given.nitsche);
+    CHECK(given.gravityLayers == 3);
+    CHECK(given.ghostPressure == 0.2);
+    CHECK(given.ghostVelocity == byDefault.ghostVelocity);
+}
+
+TEST_CASE("what is printed reads back as the same numbers")
+{
+    NumericsControls numerics;
+    numerics.nitsche = false;
+    numerics.densityClip = 0.01;
+    numerics.restart = 55;
+    Foam::OStringStream os;
+    writeNumerics(os, numerics);
+    CHECK(has(os.str(), "[default 30]"));
+    const NumericsControls back = readNumerics(parse(os.str()));
+    CHECK(back.nitsche == numerics.nitsche);
+    CHECK(back.densityClip == numerics.densityClip);
+    CHECK(back.restart == numerics.restart);
+    CHECK(back.tolerance == numerics.tolerance);
+}
+
+TEST_CASE("misspelt and out of range")
+{
+    const std::string misspelt = numericsMessage("nitscheGama 5;");
+    CHECK(has(misspelt, "nitscheGama"));
+    CHECK(has(misspelt, "Did you mean: nitscheGamma"));
+    const std::string range = numericsMessage("timeOrder 3;");
+    CHECK(has(range, "timeOrder"));
+    CHECK(has(range, "is 3"));
+    CHECK(has(range, "from 1 to 2"));
+    CHECK(has(range, "BDF2"));
+    CHECK(has(numericsMessage("tolerance 0;"), "larger than 0"));
+}
+
+TEST_CASE("nearest words")
+{
+    CHECK(editDistance("gravityLayers", "gravityLayer") == 1);
+    CHECK(editDistance("tolrenace", "tolerance") > 1);
+    CHECK(editDistance("raidus", "radius") == 1);
+    CHECK(nearestWords("raidus", {"size", "radius", "end1"}) == std::vector<std::string>{"radius"});
+    CHECK(nearestWords("xyzzy", {"size", "radius"}).empty());
+}
+
+TEST_CASE("two fluids as interFoam: the first phase is the liquid, entries with and without dimensions")
+{
+    CaseControls c;
+    readTransport(parse("phases (water air); " + water + air + "sigma 0.07;"), c);
+    CHECK(c.fluid.isTwoPhase);
+    CHECK(c.alphaName == "alpha.water");
+    CHECK(c.fluid.rhoLiquid == 1000);
+    CHECK(c.fluid.rhoGas == 1);
+    CHECK(c.fluid.muLiquid == doctest::Approx(1e-3));
+    CHECK(c.fluid.muGas == doctest::Approx(1.48e-5));
+    CHECK(c.fluid.sigma == 0.07);
+}
+
+TEST_CASE("one fluid as icoFoam")
+{
+    CaseControls c;
+    readTransport(parse("nu [0 2 -1 0 0 0 0] 0.01;"), c);
+    CHECK_FALSE(c.fluid.isTwoPhase);
+    CHECK_FALSE(c.hasDensity);
+    CHECK(c.alphaName.empty());
+    CHECK(c.fluid.rhoLiquid == 1);
+    CHECK(c.fluid.muLiquid == 0.01);
+    readTransport(parse("nu 1e-6; rho 1000;"), c);
+    CHECK(c.hasDensity);
+    CHECK(c.fluid.muLiquid == doctest::Approx(1e-3));
+}
+
+TEST_CASE("transport: what is not modelled or contradictory is said")
+{
+    CHECK(has(transportMessage("phases (water air); water { transportModel CrossPowerLaw; nu 1; rho 1; }" + air), "CrossPowerLaw is not modelled"));
+    CHECK(has(transportMessage("phases (air water); " + water + air), "list the liquid first"));
+    CHECK(has(transportMessage("phases (water air oil); " + water + air), "give two"));
+    CHECK(has(transportMessage("phases (water air); " + water + "air { nu 1e-5; rho -1; }"), "rho"));
+    CHECK(has(transportMessage("sigma 0;"), "Neither 'phases' nor 'nu'"));
+    CHECK(has(messageOf([] { checkLaminar(parse("simulationType RAS;")); }), "allowed: laminar"));
+    CHECK(has(messageOf([] { checkLaminar(parse("simulationType laminar; laminar { laminarModel Maxwell; }")); }), "allowed: Stokes"));
+    CHECK(messageOf([] { checkLaminar(parse("simulationType laminar;")); }).empty());
+}
+
+TEST_CASE("time controls: the smaller of maxCo and maxAlphaCo counts; a fixed step stays fixed")
+{
+    const TimeControls t = readTimeControls(parse("deltaT 0.01; adjustTimeStep yes; maxCo 0.4; maxAlphaCo 0.2; maxDeltaT 0.05;"));
+    CHECK(t.adjustTimeStep);
+    CHECK(t.maxCo == 0.2);
+    CHECK(t.maxDeltaT == 0.05);
+    CHECK_FALSE(readTimeControls(parse("deltaT 0.01;")).adjustTimeStep);
+    CHECK(has(messageOf([] { readTimeControls(parse("deltaT 0.01; maxCo -1;")); }), "larger than 0"));
+    CHECK(has(messageOf([] { readTimeControls(parse("deltaT 0.01; minDeltaT 1; maxDeltaT 0.1;")); }), "larger than maxDeltaT"));
+}
+
+TEST_CASE("a whole case")
+{
+    FoamCase scene("foamChannel");
+    const CaseControls c = readCaseControls(scene.time());
+    CHECK(c.fluid.gravity[1] == -10);
+    CHECK(c.numerics.timeOrder == 1);
+    CHECK_FALSE(c.numerics.dualCellTransport);
+    CHECK(c.time.maxCo == 0.3);
+    CHECK(c.pRefValue == 5);
+    scene.edit({"constant/turbulenceProperties", "laminar", "LES"});
+    CHECK(has(messageOf([&] { readCaseControls(scene.time()); }), "LES is not modelled"));
+}

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "equations/dualCells.hpp"
+#include "equations/initialProfile.hpp"
+#include "equations/interfacePlanes.hpp"
+#include "support/boxMesh.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace flotsam;
+
+namespace
+{
+
+struct Scene
+{
+    SimplexMesh mesh;
+    NodeGraph graph;
+    Halo halo;
+    std::vector<double> width;
+
+    Scene(MPI_Comm comm, int dim, int n, double perturbation)
+        : mesh(makeBoxMesh(comm, dim, {n, n, dim == 2 ? 1 : n}, {0, 0, 0}, {1, 1, 1}, perturbation)), graph(mesh), halo(mesh, comm),
+          width(interfaceWidth(mesh, graph, halo, 0.35))
+    {
+    }
+
+    double height(int i) const { return mesh.x[std::size_t(i)*mesh.dim + mesh.dim - 1]; }
+
+    double volumeOf(const std::vector<double>& alpha) const
+    {
+        const std::vector<double> volume = dualVolumes(mesh, nullptr);
+        double sum = 0;
+        for (int i = 0; i < mesh.nOwned; ++i)
+        {
+            sum += volume[i]*alpha[i];
+        }
+        return halo.sum(sum);
+    }
+};
+
+} // namespace
+
+TEST_CASE("start profile: a level surface on or between node planes gives a flat profile of the right width")
+{
+    for (const int dim : {2, 3})
+    {
+        const Scene scene(MPI_COMM_WORLD, dim, 10, 0);
+        for (const double level : {0.5, 0.55})
+        {
+            std::vector<double> alpha(scene.mesh.nNodes);
+            for (int i = 0; i < scene.mesh.nNodes; ++i)
+            {
+                const double d = level - scene.height(i);
+                alpha[i] = std::abs(d) < 1e-9 ? 0.5 : d > 0 ? 1 : 0;
+            }
+            makeStartProfile(scene.mesh, scene.graph, scene.halo, scene.width, alpha);
+            // the end of the box cuts the profile's tail off: keeping the volume may shift all of it by that much
+            const double at = 0.035*std::log(alpha[0]/(1 - alpha[0])) + scene.height(0);
+            CHECK(std::abs(at - level) < 1e-6);
+            double worst = 0;
+            for (int i = 0; i < scene.mesh.nNodes; ++i)
+            {
+                const double d = at - scene.height(i);
+                worst = std::max(worst, std::abs(alpha[i] - 1/(1 + std::exp(-d/0.035))));
+            }
+            CHECK(scene.halo.max(worst) < 1e-10);
+        }
+    }
+}
+
+TEST_CASE("start profile: keeps the volume, is the same on any number of ranks")
+{
+    for (const int dim : {2, 3})
+    {
+        const int n = dim == 2 ? 24 : 12;
+        const Scene scene(MPI_COMM_WORLD, dim, n, 0.15), whole(MPI_COMM_SELF, dim, n, 0.15);
+        const auto ball = [dim](const Scene& s) {
+            std::vector<double> alpha(s.mesh.nNodes);
+            for (int i = 0; i < s.mesh.nNodes; ++i)
+            {
+                double r = 0;
+                for (int d = 0; d < dim; ++d)
+                {
+                    r += std::pow(s.mesh.x[std::size_t(i)*dim + d] - 0.48, 2);
+                }
+                alpha[i] = std::clamp(0.5 + 0.7*(0.3 - std::sqrt(r))*24, 0., 1.);
+            }
+            return alpha;
+        };
+        std::vector<double> alpha = ball(scene), reference = ball(whole);
+        const double before = scene.volumeOf(alpha);
+        makeStartProfile(scene.mesh, scene.graph, scene.halo, scene.width, alpha);
+        makeStartProfile(whole.mesh, whole.graph, whole.halo, whole.width, reference);
+        CHECK(scene.volumeOf(alpha) == doctest::Approx(before).epsilon(1e-12));
+        double worst = 0;
+        for (int i = 0; i < scene.mesh.nNodes; ++i)
+        {
+            worst = std::max(worst, std::abs(alpha[i] - reference[scene.mesh.originalNode[i]]));
+        }
+        CHECK(scene.halo.max(worst) < 1e-12);
+    }
+}
+
+TEST_CASE("interface planes: exact for a plane surface, in all directions and on moved nodes")
+{
+    for (const int dim : {2, 3})
+    {
+        const Scene scene(MPI_COMM_WORLD, dim, 10, 0.15);
+        const double n[3] = {0.48, dim == 2 ? 0.87727 : 0.6, 0.64};
+        const double length = std::sqrt(n[0]*n[0] + n[1]*n[1] + (dim == 3 ? n[2]*n[2] : 0));
+        std::vector<double> level(scene.mesh.nNodes), exact(scene.mesh.nNodes);
+        for (int i = 0; i < scene.mesh.nNodes; ++i)
+        {
+            exact[i] = -0.51;
+            for (int d = 0; d < dim; ++d)
+            {
+                exact[i] += n[d]/length*scene.mesh.x[std::size_t(i)*dim + d];
+            }
+            level[i] = 2*exact[i];
+        }
+        InterfacePlanes planes;
+        for (const int rings : {6, 3})      // the second call reuses the storage of the first
+        {
+            planes.propagate(scene.mesh, scene.graph, scene.halo, level, rings);
+            double worst = 0;
+            long count = 0;
+            for (const int i : planes.nodes())
+            {
+                worst = std::max({worst, std::abs(planes.distance(i) - exact[i]), std::abs(planes.slope(i) - 2)});
+                count += i < scene.mesh.nOwned;
+            }
+            CHECK(scene.halo.max(worst) < 1e-12);
+            CHECK(scene.halo.sum(count) > 0);
+            for (int i = 0; i < scene.mesh.nOwned; ++i)     // one cell is at least one ring
+            {
+                if (std::abs(exact[i]) < 0.1*rings*0.8)
+                {
+                    CHECK(planes.has(i));
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/shape.hpp"
+
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <random>
+#include <stdexcept>
+
+using namespace flotsam;
+
+namespace
+{
+
+/// A file name of this process; removed at the end.
+struct TemporaryFile
+{
+    std::string name = "stlShapeTest." + std::to_string(getpid()) + ".stl";
+    ~TemporaryFile() { std::remove(name.c_str()); }
+};
+
+void writeAscii(const std::string& name, const TriSurface& s)
+{
+    std::ofstream out(name);
+    out.precision(17);
+    out << "solid test\n";
+    for (const auto& t : s.triangles)
+    {
+        out << "facet normal 0 0 0\n outer loop\n";
+        for (int i : t) out << "  vertex " << s.points[i].transpose() << '\n';
+        out << " endloop\nendfacet\n";
+    }
+    out << "endsolid test\n";
+}
+
+void writeBinary(const std::string& name, const TriSurface& s)
+{
+    std::ofstream out(name, std::ios::binary);
+    const char header[80] = "solid written by a program that begins binary files like ASCII ones";
+    const std::uint32_t n = static_cast<std::uint32_t>(s.triangles.size());
+    out.write(header, 80).write(reinterpret_cast<const char*>(&n), 4);
+    for (const auto& t : s.triangles)
+    {
+        float values[12] = {};
+        for (int k = 0; k < 3; ++k)
+            for (int d = 0; d < 3; ++d) values[3 + 3 * k + d] = static_cast<float>(s.points[t[k]][d]);
+        const std::uint16_t attributes = 0;
+        out.write(reinterpret_cast<const char*>(values), sizeof values).write(reinterpret_cast<const char*>(&attributes), 2);
+    }
+}
+
+void turnInsideOut(TriSurface& s)
+{
+    for (auto& t : s.triangles) std::swap(t[0], t[1]);
+}
+
+std::vector<Vec3> randomPoints(double extent, int n)
+{
+    std::mt19937 generator(1);
+    std::uniform_real_distribution<double> uniform(-extent, extent);
+    std::vector<Vec3> points;
+    for (int i = 0; i < n; ++i) points.emplace_back(uniform(generator), uniform(generator), uniform(generator));
+    return points;
+}
+
+} // namespace
+
+TEST_CASE("an STL box is the box: distance, bounds, moments; ASCII, either orientation")
+{
+    const auto box = makeBox({0.1, -0.2, 0.3}, {1, 0.6, 0.4});
+    for (const bool isTurned : {false, true})
+    {
+        const TemporaryFile file;
+        TriSurface s = box->surface(1);
+        if (isTurned) turnInsideOut(s);
+        writeAscii(file.name, s);
+        const auto stl = makeStl(file.name);
+        double worst = 0;
+        for (const Vec3& x : randomPoints(1.2, 2000)) worst = std::max(worst, std::abs(stl->distance(x) - box->distance(x)));
+        CHECK(worst < 1e-12);
+        const VolumeMoments a = stl->moments(), b = box->moments();
+        CHECK(a.volume == doctest::Approx(b.volume).epsilon(1e-14));
+        CHECK((a.centroid - b.centroid).norm() < 1e-14);
+        CHECK((a.inertia - b.inertia).norm() < 1e-14);
+        CHECK((stl->bounds()[0] - box->bounds()[0]).norm() < 1e-15);
+    }
+}
+
+TEST_CASE("binary STL with scale: a fine capsule has the capsule's distance and moments")
+{
+    const auto capsule = makeCapsule({0, 0, -0.4}, {0.1, 0.2, 0.4}, 0.3);
+    const TemporaryFile file;
+    TriSurface s = capsule->surface(0.02);
+    for (Vec3& x : s.points) x *= 1000; // the file is in mm
+    writeBinary(file.name, s);
+    const auto stl = makeStl(file.name, 1e-3);
+    double worst = 0;
+    for (const Vec3& x : randomPoints(0.8, 2000)) worst = std::max(worst, std::abs(stl->distance(x) - capsule->distance(x)));
+    CHECK(worst < 0.02 * 0.02 / 0.3);
+    CHECK(stl->moments().volume == doctest::Approx(capsule->moments().volume).epsilon(2e-3));
+}
+
+TEST_CASE("the sign is right near sharp edges and corners, where face normals fail")
+{
+    // a spike: a thin tetrahedron; its inside is known from four planes
+    TriSurface s;
+    s.points = {{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0.5, 0.6, 1}};
+    s.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+    const TemporaryFile file;
+    writeAscii(file.name, s);
+    const auto spike = makeStl(file.name);
+    int wrong = 0;
+    for (const Vec3& x : randomPoints(1.2, 5000))
+    {
+        bool isInside = true;
+        for (const auto& t : s.triangles)
+        {
+            const Vec3 &a = s.points[t[0]], &b = s.points[t[1]], &c = s.points[t[2]];
+            isInside = isInside && (b - a).cross(c - a).dot(x - a) < 0;
+        }
+        wrong += isInside != (spike->distance(x) < 0);
+    }
+    CHECK(wrong == 0);
+}
+
+TEST_CASE("surfaces that enclose nothing are refused, naming the file and the edge")
+{
+    const TemporaryFile file;
+    TriSurface s = makeBox(Vec3::Zero(), {2, 2, 2})->surface(1);
+    s.triangles.pop_back();
+    writeAscii(file.name, s);
+    CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains(file.name.c_str()), std::runtime_error);
+    CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("the surface is open: the edge ("), std::runtime_error);
+
+    s = makeBox(Vec3::Zero(), {2, 2, 2})->surface(1);
+    std::swap(s.triangles[3][0], s.triangles[3][1]);
+    writeAscii(file.name, s);
+    CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("opposite orientation"), std::runtime_error);
+
+    s = makeBox(Vec3::Zero(), {2, 2, 2})->surface(1);
+    s.triangles.push_back(s.triangles[0]);
+    writeAscii(file.name, s);
+    CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("wanted 2"), std::runtime_error);
+
+    std::ofstream(file.name) << "something else";
+    CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("neither binary"), std::runtime_error);
+    CHECK_THROWS_WITH_AS(makeStl("no/such/file.stl"), doctest::Contains("cannot be opened"), std::runtime_error);
+}

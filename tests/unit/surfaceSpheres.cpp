@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/shape.hpp"
+#include "geometry/triSurface.hpp"
+
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+
+using namespace flotsam;
+
+namespace
+{
+
+/// Each sphere touches the surface from inside, none twice.
+void checkTouching(const Shape& shape, const std::vector<SurfaceSphere>& spheres)
+{
+    REQUIRE(!spheres.empty());
+    double worst = 0, closest = 1e300;
+    for (std::size_t i = 0; i < spheres.size(); ++i)
+    {
+        worst = std::max(worst, std::abs(shape.distance(spheres[i].centre) + spheres[i].radius));
+        for (std::size_t j = 0; j < i; ++j) closest = std::min(closest, (spheres[i].centre - spheres[j].centre).norm());
+    }
+    CHECK(worst < 1e-9);
+    CHECK(closest > 1e-6);
+}
+
+/// Largest way from a point of the surface to a sphere's surface.
+double largestHole(const Shape& shape, const std::vector<SurfaceSphere>& spheres, double spacing)
+{
+    double largest = 0;
+    for (const SurfacePoint& p : samplePoints(shape.surface(spacing / 4), spacing / 4))
+    {
+        double nearest = 1e300;
+        for (const SurfaceSphere& s : spheres) nearest = std::min(nearest, (p.x - s.centre).norm() - s.radius);
+        largest = std::max(largest, nearest);
+    }
+    return largest;
+}
+
+/// Each sphere has a neighbour within the spacing.
+double loneliest(const std::vector<SurfaceSphere>& spheres)
+{
+    double worst = 0;
+    for (const SurfaceSphere& s : spheres)
+    {
+        double nearest = 1e300;
+        for (const SurfaceSphere& other : spheres)
+            if (&other != &s) nearest = std::min(nearest, (s.centre - other.centre).norm());
+        worst = std::max(worst, nearest);
+    }
+    return worst;
+}
+
+} // namespace
+
+TEST_CASE("a bar gets rows of spheres on its surface only")
+{
+    const auto bar = makeBox(Vec3::Zero(), {0.2, 0.04, 0.04});
+    const auto spheres = surfaceSpheres(*bar, 0.01, 0.01);
+    // lattice of 19 x 3 x 3 without its inside
+    CHECK(spheres.size() == 19 * 9 - 17);
+    checkTouching(*bar, spheres);
+    CHECK(loneliest(spheres) <= 0.01 * (1 + 1e-9));
+    const auto thick = surfaceSpheres(*bar, 0.03, 0.05); // thicker than the bar: one row
+    CHECK(thick.size() == 5);
+    CHECK(thick[0].radius == doctest::Approx(0.02));
+    checkTouching(*bar, thick);
+}
+
+TEST_CASE("cylinder, capsule, sphere, placed")
+{
+    const Vec3 end1(0.1, 0.2, 0), end2(0.4, 0.4, 0.3);
+    const auto cylinder = makeCylinder(end1, end2, 0.05), capsule = makeCapsule(end1, end2, 0.05);
+    for (const auto& shape : {cylinder, capsule, makePlaced(cylinder, Eigen::Quaterniond(Eigen::AngleAxisd(1, Vec3::UnitX())), {1, 0, 0})})
+    {
+        const auto spheres = surfaceSpheres(*shape, 0.01, 0.015);
+        checkTouching(*shape, spheres);
+        CHECK(loneliest(spheres) <= 0.015 * (1 + 1e-9));
+        // a hole in a square lattice of 0.015: 0.0106 from the centres, 0.0146 - 0.01 from the surface; edges: sqrt(2) r - r
+        CHECK(largestHole(*shape, spheres, 0.015) < 0.0065);
+        const auto row = surfaceSpheres(*shape, 0.08, 0.05); // thinner than the sphere: a row on the axis
+        CHECK(row[0].radius == doctest::Approx(0.05));
+        checkTouching(*shape, row);
+    }
+    const auto one = surfaceSpheres(*makeSphere(end1, 0.07), 0.01, 0.01);
+    REQUIRE(one.size() == 1);
+    CHECK(one[0].radius == 0.07);
+    CHECK(one[0].centre == end1);
+}
+
+TEST_CASE("union: only spheres at the common surface")
+{
+    const auto cross = makeUnion({makeBox(Vec3::Zero(), {0.3, 0.06, 0.06}), makeBox(Vec3::Zero(), {0.06, 0.3, 0.06})});
+    const auto spheres = surfaceSpheres(*cross, 0.01, 0.012);
+    checkTouching(*cross, spheres);
+    CHECK(largestHole(*cross, spheres, 0.012) < 0.0125);
+    // two boxes lattices would hold more
+    CHECK(spheres.size() < 2 * surfaceSpheres(*makeBox(Vec3::Zero(), {0.3, 0.06, 0.06}), 0.01, 0.012).size());
+}
+
+TEST_CASE("STL: spheres touch from inside, cover the surface, and are the same at every call")
+{
+    const std::string file = "surfaceSpheresTest." + std::to_string(getpid()) + ".stl";
+    const auto write = [&](const Shape& shape)
+    {
+        std::ofstream out(file);
+        out.precision(17);
+        out << "solid s\n";
+        const TriSurface s = shape.surface(0.03);
+        for (const auto& t : s.triangles)
+        {
+            out << "facet normal 0 0 0\nouter loop\n";
+            for (int i : t) out << "vertex " << s.points[i].transpose() << '\n';
+            out << "endloop\nendfacet\n";
+        }
+        out << "endsolid s\n";
+    };
+    const double r = 0.02, spacing = 0.03;
+    for (const auto& shape : {makeBox(Vec3::Zero(), {0.3, 0.1, 0.12}), makeCapsule({0, 0, 0}, {0.3, 0.1, 0}, 0.06)})
+    {
+        write(*shape);
+        const auto stl = makeStl(file);
+        const auto spheres = surfaceSpheres(*stl, r, spacing), again = surfaceSpheres(*stl, r, spacing);
+        checkTouching(*stl, spheres);
+        for (const SurfaceSphere& s : spheres) CHECK(s.radius == doctest::Approx(r));
+        CHECK(loneliest(spheres) <= spacing);
+        CHECK(largestHole(*stl, spheres, spacing) < 0.7 * r + 0.3 * spacing); // sqrt(3) r - r at a corner
+        REQUIRE(spheres.size() == again.size());
+        for (std::size_t i = 0; i < spheres.size(); ++i) CHECK(spheres[i].centre == again[i].centre);
+        MESSAGE(spheres.size() << " spheres, largest hole/r " << largestHole(*stl, spheres, spacing) / r);
+    }
+    write(*makeBox(Vec3::Zero(), {0.3, 0.3, 0.02})); // a plate thinner than the spheres
+    const auto plate = makeStl(file);
+    const auto thin = surfaceSpheres(*plate, r, spacing);
+    checkTouching(*plate, thin);
+    for (const SurfaceSphere& s : thin) CHECK((s.radius > 0.004 && s.radius < 0.0101));
+    std::remove(file.c_str());
+}
+
+TEST_CASE("senseless radius or spacing")
+{
+    CHECK_THROWS_AS(surfaceSpheres(*makeSphere(Vec3::Zero(), 1), 0, 1), std::runtime_error);
+    CHECK_THROWS_AS(surfaceSpheres(*makeSphere(Vec3::Zero(), 1), 1, 0), std::runtime_error);
+}

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Volumes and surfaces of cut bodies: order 2, closed surfaces, exact volume by the offset.
+#include "geometry/coverBuilder.hpp"
+#include "support/boxMesh.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace flotsam;
+
+namespace
+{
+
+struct Scene
+{
+    SimplexMesh mesh;
+    NodeGraph graph;
+    Halo halo;
+
+    Scene(int dim, int n)
+        : mesh(makeBoxMesh(MPI_COMM_WORLD, dim, {n, n, n}, {-1, -1, -1}, {1, 1, 1}, 0.15, true)), graph(mesh),
+          halo(mesh, MPI_COMM_WORLD)
+    {
+    }
+};
+
+Solid makeSolid(std::shared_ptr<const Shape> shape, Solid::Kind kind = Solid::Kind::Fixed)
+{
+    Solid s;
+    s.kind = kind;
+    s.shape = std::move(shape);
+    s.pose.position = {0.031, -0.017, 0.011};
+    s.pose.orientation = Eigen::AngleAxisd(0.5, Vec3::UnitZ());
+    return s;
+}
+
+struct Errors { double volume, area; };
+
+/// Mean over positions: one position's error may vanish by chance.
+Errors meanErrors(int dim, int n, Solid solid, double exactVolume, double exactArea)
+{
+    const Scene scene(dim, n);
+    CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+    Errors errors{0, 0};
+    const int nPositions = 4;
+    for (int k = 0; k < nPositions; ++k)
+    {
+        solid.pose.position += Vec3(0.013, 0.007, 0.009);
+        const Cover& cover = builder.build({solid});
+        errors.volume += std::abs(cover.solidVolume[0] / exactVolume - 1) / nPositions;
+        errors.area += std::abs(cover.solidArea[0] / exactArea - 1) / nPositions;
+    }
+    return errors;
+}
+
+void checkOrder(int dim, const Solid& solid, double exactVolume, double exactArea, bool hasEdges)
+{
+    const int coarse = dim == 2 ? 20 : 10;
+    const Errors e[3] = {meanErrors(dim, coarse, solid, exactVolume, exactArea),
+                         meanErrors(dim, 2 * coarse, solid, exactVolume, exactArea),
+                         meanErrors(dim, 4 * coarse, solid, exactVolume, exactArea)};
+    const double volumeOrder = 0.5 * std::log2(e[0].volume / e[2].volume), areaOrder = 0.5 * std::log2(e[0].area / e[2].area);
+    MESSAGE(dim << "D: volume " << e[0].volume << " " << e[1].volume << " " << e[2].volume << " order " << volumeOrder << ", area "
+                << e[0].area << " " << e[1].area << " " << e[2].area << " order " << areaOrder);
+    CHECK(volumeOrder > 1.7);
+    // cutting a corner off an edge costs O(h) of its length in 2D (2 corners) and O(h) in 3D
+    CHECK(areaOrder > (hasEdges ? 0.8 : 1.7));
+}
+
+} // namespace
+
+TEST_CASE("volume of order 2; area of order 2 for smooth bodies, of order 1 with edges")
+{
+    const double r = 0.55;
+    SUBCASE("sphere 3D") { checkOrder(3, makeSolid(makeSphere(Vec3::Zero(), r)), 4 * M_PI / 3 * r * r * r, 4 * M_PI * r * r, false); }
+    SUBCASE("cylinder 3D")
+    {
+        checkOrder(3, makeSolid(makeCylinder({-0.4, 0, 0}, {0.4, 0, 0}, 0.4)), 0.8 * M_PI * 0.16, 2 * M_PI * 0.4 * (0.8 + 0.4), true);
+    }
+    SUBCASE("box 3D") { checkOrder(3, makeSolid(makeBox(Vec3::Zero(), {0.9, 0.7, 0.8})), 0.9 * 0.7 * 0.8, 2 * (0.63 + 0.72 + 0.56), true); }
+    SUBCASE("cylinder 2D") { checkOrder(2, makeSolid(makeCylinder({0, 0, -1}, {0, 0, 1}, r)), M_PI * r * r, 2 * M_PI * r, false); }
+    SUBCASE("box 2D") { checkOrder(2, makeSolid(makeBox(Vec3::Zero(), {0.9, 0.7, 2})), 0.9 * 0.7, 2 * 1.6, true); }
+}
+
+TEST_CASE("the surface of a body strictly inside is closed, and its flux of x is its volume")
+{
+    for (const int dim : {2, 3})
+    {
+        const Scene scene(dim, dim == 2 ? 30 : 14);
+        const SimplexMesh& mesh = scene.mesh;
+        for (const auto& shape : {makeSphere(Vec3::Zero(), 0.5), makeBox(Vec3::Zero(), {0.8, 0.5, 0.7}),
+                                  makeUnion({makeBox({0.2, 0, 0}, {0.5, 0.3, 0.4}), makeCapsule({-0.3, -0.2, 0}, {0.1, 0.2, 0}, 0.2)})})
+        {
+            const Cover cover = cutMesh(mesh, scene.graph, scene.halo, {makeSolid(shape)});
+            double closure[3] = {0, 0, 0}, flux = 0;
+            for (const CutFacet& facet : cover.facets)
+                for (int q = 0; q < facet.nPoints; ++q)
+                    for (int d = 0; d < dim; ++d)
+                    {
+                        double x = 0;
+                        for (int a = 0; a <= dim; ++a) x += facet.shape[q][a] * mesh.x[mesh.elements[facet.element * (dim + 1) + a] * dim + d];
+                        closure[d] += facet.weight[q] * facet.normal[d];
+                        flux -= facet.weight[q] * facet.normal[d] * x; // the normal points into the body
+                    }
+            for (int d = 0; d < dim; ++d) CHECK(std::abs(closure[d]) < 1e-13);
+            CHECK(flux == doctest::Approx(dim * cover.solidVolume[0]).epsilon(1e-12));
+        }
+    }
+}
+
+TEST_CASE("the offset makes the cut volume the exact one")
+{
+    struct Case { int dim; std::shared_ptr<const Shape> shape; double exact; };
+    for (const Case& c : {Case{3, makeBox(Vec3::Zero(), {0.9, 0.6, 0.6}), 0.9 * 0.36},
+                          Case{3, makeCylinder({-0.4, 0, 0}, {0.4, 0, 0}, 0.3), 0.8 * M_PI * 0.09},
+                          Case{2, makeBox(Vec3::Zero(), {0.9, 0.6, 0.1}), 0.54},
+                          Case{2, makeCylinder({0, 0, -0.1}, {0, 0, 0.1}, 0.4), M_PI * 0.16},
+                          Case{2, makeSphere({0, 0, -0.011}, 0.4), M_PI * 0.16}})
+    {
+        const Scene scene(c.dim, 14); // 4 to 6 elements across
+        CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+        std::vector<Solid> solids{makeSolid(c.shape, Solid::Kind::Free)};
+        const double exact = builder.exactVolume(solids[0]);
+        CHECK(exact == doctest::Approx(c.exact).epsilon(1e-4));
+        const double deficit = exact - builder.build(solids).solidVolume[0];
+        double volume = 0;
+        for (int call = 0; call < 3; ++call) volume = builder.buildExactVolume(solids).solidVolume[0];
+        MESSAGE("deficit " << deficit / exact << ", after 3 calls " << (exact - volume) / deficit << " of it, offset/h "
+                           << solids[0].offset * 7);
+        CHECK(std::abs(exact - volume) < 1e-3 * std::abs(deficit));
+    }
+}
+
+TEST_CASE("a neighbour does not change a body's offset, a body through the wall keeps its own")
+{
+    const Scene scene(3, 12);
+    CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+    std::vector<Solid> alone{makeSolid(makeBox(Vec3::Zero(), {0.6, 0.5, 0.5}), Solid::Kind::Free)}, pair = alone;
+    pair.push_back(makeSolid(makeBox(Vec3::Zero(), {0.6, 0.5, 0.5}), Solid::Kind::Free));
+    pair[1].pose.position = pair[0].pose.position + pair[0].pose.orientation * Vec3(0.62, 0, 0);
+    for (int call = 0; call < 2; ++call)
+    {
+        builder.buildExactVolume(alone);
+        builder.buildExactVolume(pair);
+    }
+    CHECK(alone[0].offset == doctest::Approx(pair[0].offset).epsilon(1e-12));
+    alone[0].pose.position = {0.9, 0, 0};
+    const double before = alone[0].offset;
+    builder.buildExactVolume(alone);
+    CHECK(alone[0].offset == before);
+}

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Fluid that must stay at rest does, around a fixed solid; a released light cylinder starts with its added-mass acceleration.
+#include "equations/fluid.hpp"
+#include "geometry/coverBuilder.hpp"
+#include "support/flowCases.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdio>
+
+using namespace flotsam;
+
+namespace
+{
+
+double largestSpeed(const Fluid& fluid)
+{
+    double largest = 0;
+    for (double v : fluid.state().u) largest = std::max(largest, std::abs(v));
+    return fluid.halo().max(largest);
+}
+
+FluidProperties singleFluid(int gravityAxis)
+{
+    FluidProperties f;
+    f.isTwoPhase = false;
+    f.rhoLiquid = 1;
+    f.muLiquid = 1e-3;
+    f.gravity[gravityAxis] = -1;
+    return f;
+}
+
+} // namespace
+
+TEST_CASE("water at rest around a fixed cut cylinder stays at rest and carries its discrete weight")
+{
+    usePetsc();
+    const SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, 2, {32, 32, 1}, {-1, -1, 0}, {1, 1, 1}, 0.1);
+    const Halo halo(mesh, MPI_COMM_WORLD);
+    NumericsControls controls;
+    controls.tolerance = 1e-10;
+    Fluid fluid(mesh, halo, singleFluid(1), controls, allPatches(mesh, BoundaryPatch::Velocity::Fixed));
+    fluid.start(restState(mesh), true);
+    std::vector<Solid> solids(1);
+    solids[0].shape = makeCylinder(Vec3(0, 0, -1), Vec3(0, 0, 2), 0.5);
+    solids[0].pose.position = Vec3(0.013, 0.02, 0);
+    CoverBuilder builder(mesh, fluid.graph(), halo);
+    const Cover& cover = builder.build(solids);
+    fluid.setGeometry(&cover, &solids, true);
+    for (int step = 0; step < 3; ++step)
+    {
+        fluid.beginStep(0.01);
+        fluid.assemble();
+        CHECK(fluid.solve({}).hasConverged);
+        fluid.endStep();
+    }
+    CHECK(largestSpeed(fluid) < 1e-8);
+    const Vec3 force = fluid.solidLoads()[0].force;
+    CHECK(force[1] == doctest::Approx(cover.solidVolume[0]).epsilon(1e-6));
+    CHECK(std::abs(force[0]) < 1e-6);
+}
+
+TEST_CASE("a released cylinder starts with the added-mass acceleration at any density")
+{
+    usePetsc();
+    const SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, 2, {96, 96, 1}, {-3, -3, 0}, {3, 3, 1}, 0);
+    const Halo halo(mesh, MPI_COMM_WORLD);
+    NumericsControls controls;
+    controls.tolerance = 1e-8;
+    for (double density : {0.01, 0.1, 0.59, 3.0})
+    {
+        FluidProperties properties = singleFluid(1);
+        properties.muLiquid = 1e-4;
+        Fluid fluid(mesh, halo, properties, controls, allPatches(mesh, BoundaryPatch::Velocity::Fixed));
+        fluid.start(restState(mesh), true);
+        std::vector<Solid> solids(1);
+        solids[0].kind = Solid::Kind::Free;
+        solids[0].shape = makeCylinder(Vec3(0, 0, -0.5), Vec3(0, 0, 0.5), 0.5);
+        CoverBuilder builder(mesh, fluid.graph(), halo);
+        for (int k = 0; k < 4; ++k) builder.buildExactVolume(solids);
+        const Cover& cover = builder.cover();
+        fluid.setGeometry(&cover, &solids, true);
+        FreeBody body;
+        body.mass = density*M_PI/4;
+        body.inertia = Eigen::Matrix3d::Identity()*body.mass/8;
+        body.force = Vec3(0, -body.mass, 0);
+        const double dt = 0.01;
+        fluid.beginStep(dt);
+        fluid.assemble();
+        const SolveReport report = fluid.solve({body});
+        const double acceleration = fluid.solidMotions()[0].velocity[1]/dt;
+        // the box is 6 diameters wide: its walls raise the added mass by (1 + 2 pi^2/12 (D/W)^2 ..), about 3 %
+        const double exact = (1 - density)/(density + 1);
+        std::printf("density %.2f: acceleration %.5f exact (unbounded) %.5f, %d iterations\n", density, acceleration, exact, report.iterations);
+        CHECK(acceleration == doctest::Approx(exact).epsilon(0.03));
+        const Vec3 load = fluid.solidLoads()[0].force;
+        CHECK(body.mass*acceleration == doctest::Approx(load[1] - body.mass).epsilon(1e-5));
+    }
+}
