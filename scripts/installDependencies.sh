@@ -9,7 +9,7 @@ build=(g++ make cmake ninja-build pkg-config bzip2 ca-certificates
     petsc-dev libopenmpi-dev openmpi-bin libhdf5-openmpi-dev libeigen3-dev libliggghts-dev doctest-dev)
 openfoam=(openfoam libopenfoam)
 # validation, plots, pictures (xvfb: Debian's VTK draws on an X server only)
-python=(python3-numpy python3-h5py python3-matplotlib python3-vtk9 xvfb)
+python=(python3-numpy python3-h5py python3-matplotlib python3-vtk9 xvfb libgl1-mesa-dri)
 
 dryRun=
 case ${1:-} in

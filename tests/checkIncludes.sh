@@ -20,7 +20,8 @@ fluidSolver/io          fluidSolver/core fluidSolver/geometry
 fluidSolver/foam        fluidSolver/core fluidSolver/algebra fluidSolver/geometry fluidSolver/equations fluidSolver/io
 demCoupling/core        fluidSolver/core fluidSolver/geometry
 demCoupling/liggghts    demCoupling/core fluidSolver/core fluidSolver/geometry
-demCoupling/foam        demCoupling/core demCoupling/liggghts fluidSolver/core fluidSolver/geometry fluidSolver/foam
+demCoupling/coupling    demCoupling/core demCoupling/liggghts fluidSolver/core fluidSolver/algebra fluidSolver/geometry fluidSolver/equations fluidSolver/io
+demCoupling/foam        demCoupling/core demCoupling/coupling fluidSolver/core fluidSolver/algebra fluidSolver/geometry fluidSolver/io fluidSolver/foam
 tests                   *
 benchmarks              *
 '
@@ -69,6 +70,10 @@ checkOwn() {    # file line row included
         *.[ch]pp:*.H) breach "$1:$2: $4 is an OpenFOAM-side header; .cpp and .hpp may not include .H" ;;
     esac
     [ "$target" = "$3" ] && return
+    if [ "$3" = . ]; then
+        breach "$1:$2: this folder has no row in the table of arrows"
+        return
+    fi
     local allowed
     allowed=$(sed -n "s|^$3  *||p" <<< "$arrows")
     case " $allowed " in

@@ -10,3 +10,6 @@ flotsam_test(deformation3D verification SOURCES verification/deformation3D.cpp L
 
 add_executable(transportTable ${PROJECT_SOURCE_DIR}/benchmarks/transport/transportTable.cpp)
 target_link_libraries(transportTable PRIVATE flotsam_transport_support)
+flotsam_test(volumeFlux unit SOURCES unit/volumeFlux.cpp LIBRARIES flotsam_transport_support)
+flotsam_test(dualCellTransport unit SOURCES unit/dualCellTransport.cpp LIBRARIES flotsam_transport_support RANKS 1 2 3)
+flotsam_test(transportSolids verification SOURCES verification/transportSolids.cpp LIBRARIES flotsam_transport_support RANKS 1 2)

@@ -43,7 +43,7 @@ Pose bodyPose(const Pose& user, const BodyGroup& group, const SceneFrame& frame)
 {
     Pose pose = compose(user, group.prototype.pose); // the prototype's pose is that of the body frame in the user's
     if (!frame.isPlanar) return pose;
-    const auto box = PlacedShape{"", group.sampled, pose}.spaceBounds();
+    const auto box = ShapeAtPose{"", group.sampled, pose}.spaceBounds();
     pose.position[frame.planeAxis] += frame.midPlane - 0.5*(box[0] + box[1])[frame.planeAxis];
     return pose;
 }
@@ -52,7 +52,7 @@ Pose bodyPose(const Pose& user, const BodyGroup& group, const SceneFrame& frame)
 void checkPlanar(const BodyGroup& group, const BodyDefinition& body, const SceneFrame& frame)
 {
     if (!frame.isPlanar) return;
-    const auto box = PlacedShape{"", group.sampled, body.pose}.spaceBounds();
+    const auto box = ShapeAtPose{"", group.sampled, body.pose}.spaceBounds();
     const double extent = (box[1] - box[0])[frame.planeAxis];
     if (std::abs(extent - frame.thickness) > 1e-6*frame.thickness)
         failIn(*group.dict, text("2D mesh: body ", body.name, " must reach through the mesh from front to back. Its extent along ", "xyz"[frame.planeAxis],
@@ -148,7 +148,7 @@ Eigen::Quaterniond drawOrientation(const RandomPlacement& random, const Eigen::Q
 bool drawPose(const BodyGroup& group, const RandomPlacement& random, const Eigen::Quaterniond& base, const SceneFrame& frame, RandomNumbers& numbers, Pose& pose)
 {
     pose = compose({Vec3::Zero(), drawOrientation(random, base, frame, numbers)}, group.prototype.pose);
-    const auto box = PlacedShape{"", group.sampled, pose}.spaceBounds();
+    const auto box = ShapeAtPose{"", group.sampled, pose}.spaceBounds();
     for (int d = 0; d < 3; ++d)
     {
         const double lower = random.box[0][d] - box[0][d], upper = random.box[1][d] - box[1][d];
@@ -258,9 +258,9 @@ void checkMembers(const BodyGroup& group, Obstacles& obstacles)
     const double tolerance = 1e-3*group.thinnest;
     for (const BodyDefinition& body : group.members)
     {
-        const PlacedShape placed{body.name, group.sampled, body.pose};
+        const ShapeAtPose placed{body.name, group.sampled, body.pose};
         if (const auto conflict = findConflict(placed, obstacles, -tolerance))
-            failIn(*group.dict, text("Body ", body.name, " reaches ", 1000*(conflict->overlap + tolerance), " mm into ", conflict->with,
+            failIn(*group.dict, text("Body ", body.name, " reaches ", 1000*conflict->overlap, " mm into ", conflict->with,
                 " at the start.\n    Its centre is at (", body.pose.position.transpose(), "). Move it, or let 'random' find places."));
         obstacles.shapes.push_back({"body " + body.name, group.sampled, body.pose});
     }

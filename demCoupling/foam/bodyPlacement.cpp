@@ -18,7 +18,7 @@ bool boxesApart(const std::array<Vec3, 2>& a, const std::array<Vec3, 2>& b, doub
 }
 
 /// Smallest distance of a's points in b, among those near b.
-double oneSidedGap(const PlacedShape& a, const PlacedShape& b, double farther)
+double oneSidedGap(const ShapeAtPose& a, const ShapeAtPose& b, double farther)
 {
     const auto box = b.spaceBounds();
     const Eigen::Matrix3d rotation = a.pose.orientation.toRotationMatrix();
@@ -27,13 +27,13 @@ double oneSidedGap(const PlacedShape& a, const PlacedShape& b, double farther)
     {
         const Vec3 x = rotation*p + a.pose.position;
         const Vec3 outside = (box[0] - x).cwiseMax(x - box[1]).cwiseMax(0.0);
-        if (outside.norm() < smallest) smallest = std::min(smallest, b.distance(x));
+        if (outside.norm() < std::max(smallest, 1e-300)) smallest = std::min(smallest, b.distance(x));
     }
     return smallest;
 }
 
 /// Depth by which the body passes a plane or a side of the box (negative: free).
-double depthBehind(const PlacedShape& body, const Vec3& point, const Vec3& normal)
+double depthBehind(const ShapeAtPose& body, const Vec3& point, const Vec3& normal)
 {
     const Vec3 local = body.pose.orientation.conjugate()*normal;
     const double offset = normal.dot(body.pose.position - point);
@@ -42,7 +42,7 @@ double depthBehind(const PlacedShape& body, const Vec3& point, const Vec3& norma
     return deepest;
 }
 
-double depthInFacets(const PlacedShape& body, const TriSurface& surface, double spacing)
+double depthInFacets(const ShapeAtPose& body, const TriSurface& surface, double spacing)
 {
     const auto box = body.spaceBounds();
     double deepest = -1e30;
@@ -54,18 +54,19 @@ double depthInFacets(const PlacedShape& body, const TriSurface& surface, double 
         const Vec3 lower = one.points[0].cwiseMin(one.points[1]).cwiseMin(one.points[2]);
         const Vec3 upper = one.points[0].cwiseMax(one.points[1]).cwiseMax(one.points[2]);
         if (boxesApart(box, {lower, upper}, spacing)) continue;
-        for (const Vec3& x : samplePoints(one, spacing)) deepest = std::max(deepest, -body.distance(x));
+        for (const Vec3& x : pointsOnSurface(one, spacing)) deepest = std::max(deepest, -body.distance(x));
     }
     return deepest;
 }
 
-void keepWorse(std::optional<Conflict>& worst, const std::string& with, double overlap)
+/// Remembers the deepest overlap among those that violate the gap.
+void keepWorse(std::optional<Conflict>& worst, const std::string& with, double overlap, double minGap)
 {
     constexpr double roundOff = 1e-9; // [m]: bodies that touch a wall exactly are welcome
-    if (overlap > roundOff && (!worst || overlap > worst->overlap)) worst = Conflict{with, overlap};
+    if (overlap + minGap > roundOff && (!worst || overlap > worst->overlap)) worst = Conflict{with, overlap};
 }
 
-double shortestSide(const PlacedShape& body)
+double shortestSide(const ShapeAtPose& body)
 {
     const auto [lower, upper] = body.shape->shape().bounds();
     return (upper - lower).minCoeff();
@@ -73,7 +74,7 @@ double shortestSide(const PlacedShape& body)
 
 } // namespace
 
-std::vector<Vec3> samplePoints(const TriSurface& surface, double spacing)
+std::vector<Vec3> pointsOnSurface(const TriSurface& surface, double spacing)
 {
     std::vector<Vec3> points = surface.points;
     for (const auto& t : surface.triangles)
@@ -93,10 +94,10 @@ std::vector<Vec3> samplePoints(const TriSurface& surface, double spacing)
 
 SampledShape::SampledShape(std::shared_ptr<const Shape> shape, double spacing)
 :
-    shape_(std::move(shape)), points_(samplePoints(shape_->surface(spacing), spacing))
+    shape_(std::move(shape)), points_(pointsOnSurface(shape_->surface(spacing), spacing))
 {}
 
-std::array<Vec3, 2> PlacedShape::spaceBounds() const
+std::array<Vec3, 2> ShapeAtPose::spaceBounds() const
 {
     const auto [lower, upper] = shape->shape().bounds();
     const Eigen::Matrix3d rotation = pose.orientation.toRotationMatrix();
@@ -105,34 +106,31 @@ std::array<Vec3, 2> PlacedShape::spaceBounds() const
     return {Vec3(centre - half), Vec3(centre + half)};
 }
 
-double PlacedShape::distance(const Vec3& x) const
+double ShapeAtPose::distance(const Vec3& x) const
 {
     return shape->shape().distance(pose.orientation.conjugate()*(x - pose.position));
 }
 
-double gap(const PlacedShape& a, const PlacedShape& b, double farther)
+double gap(const ShapeAtPose& a, const ShapeAtPose& b, double farther)
 {
     if (boxesApart(a.spaceBounds(), b.spaceBounds(), farther)) return farther;
     return std::min(oneSidedGap(a, b, farther), oneSidedGap(b, a, farther));
 }
 
-std::optional<Conflict> findConflict(const PlacedShape& body, const Obstacles& obstacles, double minGap)
+std::optional<Conflict> findConflict(const ShapeAtPose& body, const Obstacles& obstacles, double minGap)
 {
     std::optional<Conflict> worst;
+    for (const auto& plane : obstacles.planes) keepWorse(worst, "wall " + plane.name, depthBehind(body, plane.point, plane.normal), minGap);
+    for (const auto& wall : obstacles.facets)
+        keepWorse(worst, "wall " + wall.name, depthInFacets(body, wall.surface, 0.25*shortestSide(body)), minGap);
+    for (const auto& other : obstacles.shapes) keepWorse(worst, other.name, -gap(body, other, std::max(minGap, 0.0) + 1e-6), minGap);
     for (int d = 0; d < 3; ++d)
     {
         if (!obstacles.checkBox[d]) continue;
         // the sides of the box may be open boundaries: a body must be inside, but owes them no gap
-        keepWorse(worst, "the outside of the mesh", depthBehind(body, obstacles.box[0], Vec3::Unit(d)));
-        keepWorse(worst, "the outside of the mesh", depthBehind(body, obstacles.box[1], -Vec3::Unit(d)));
-    }
-    for (const auto& plane : obstacles.planes) keepWorse(worst, "wall " + plane.name, depthBehind(body, plane.point, plane.normal) + minGap);
-    for (const auto& wall : obstacles.facets)
-        keepWorse(worst, "wall " + wall.name, depthInFacets(body, wall.surface, 0.25*shortestSide(body)) + minGap);
-    for (const auto& other : obstacles.shapes)
-    {
-        const double farther = std::max(minGap, 0.0) + 1e-9;
-        keepWorse(worst, other.name, minGap - gap(body, other, farther));
+        const double sideGap = std::min(minGap, 0.0);
+        keepWorse(worst, "the outside of the mesh", depthBehind(body, obstacles.box[0], Vec3::Unit(d)), sideGap);
+        keepWorse(worst, "the outside of the mesh", depthBehind(body, obstacles.box[1], -Vec3::Unit(d)), sideGap);
     }
     return worst;
 }

@@ -27,10 +27,10 @@ private:
 };
 
 /// Sample points of a triangulated surface, neighbours no further apart than `spacing` [m].
-std::vector<Vec3> samplePoints(const TriSurface& surface, double spacing);
+std::vector<Vec3> pointsOnSurface(const TriSurface& surface, double spacing);
 
 /// A sampled shape at a place. Box and points in space.
-struct PlacedShape
+struct ShapeAtPose
 {
     std::string name;
     std::shared_ptr<const SampledShape> shape;
@@ -41,12 +41,12 @@ struct PlacedShape
 };
 
 /// Smallest gap between two placed shapes [m], negative: depth of the overlap. Larger than `farther` is returned as `farther`.
-double gap(const PlacedShape& a, const PlacedShape& b, double farther);
+double gap(const ShapeAtPose& a, const ShapeAtPose& b, double farther);
 
 /// What bodies must keep clear of. A plane's normal points to the allowed side.
 struct Obstacles
 {
-    std::vector<PlacedShape> shapes;
+    std::vector<ShapeAtPose> shapes;
     struct Plane { std::string name; Vec3 point, normal; };
     std::vector<Plane> planes;
     struct Facets { std::string name; TriSurface surface; };
@@ -55,9 +55,9 @@ struct Obstacles
     std::array<bool, 3> checkBox{true, true, true}; ///< per axis; off along the empty axis of a 2D mesh
 };
 
-/// The worst violation of `minGap`, in words of the obstacle: nothing when the place is free.
-struct Conflict { std::string with; double overlap; /* [m], minGap included */ };
-std::optional<Conflict> findConflict(const PlacedShape& body, const Obstacles& obstacles, double minGap);
+/// The deepest overlap among what is nearer than `minGap` (negative: overlaps up to -minGap are allowed); nothing when the place is free.
+struct Conflict { std::string with; double overlap; /* [m], negative: a gap too small */ };
+std::optional<Conflict> findConflict(const ShapeAtPose& body, const Obstacles& obstacles, double minGap);
 
 /// Reproducible numbers, the same with every compiler and on every rank.
 class RandomNumbers

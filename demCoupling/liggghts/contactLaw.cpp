@@ -124,21 +124,23 @@ int sharedCount(const ContactClass& a, const ContactClass& b)
     return b.isWall ? a.faceCount : std::min(a.faceCount, b.faceCount);
 }
 
-/// Largest eigenvalue [1/kg] of M^-1 sum(A^T A) over the spheres: the square of the highest frequency of the free
-/// body on springs of unit stiffness, in all three directions, at these points.
-double stiffestMode(const BodyDefinition& body, const std::vector<Vec3>& points)
+using Directions = std::vector<Vec3>;
+
+/// Largest eigenvalue [1/kg] of M^-1 sum(A^T A): the square of the highest frequency of the free body on springs of
+/// unit stiffness at these points, in these directions.
+double stiffestMode(const BodyDefinition& body, const std::vector<Vec3>& points, const Directions& directions)
 {
     Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();
-    Eigen::Matrix<double, 6, 1> inverseRoot;
+    Eigen::Matrix<double, 6, 1> inverseRoot, row;
     inverseRoot.head<3>().setConstant(1 / std::sqrt(body.mass));
     inverseRoot.tail<3>() = body.principalInertia.cwiseSqrt().cwiseInverse();
     for (const Vec3& r : points)
-    {
-        Eigen::Matrix<double, 3, 6> a;
-        a << 1, 0, 0, 0, r.z(), -r.y(), 0, 1, 0, -r.z(), 0, r.x(), 0, 0, 1, r.y(), -r.x(), 0;
-        stiffness += a.transpose() * a;
-    }
-    stiffness = (inverseRoot.asDiagonal() * stiffness * inverseRoot.asDiagonal()).eval();
+        for (const Vec3& direction : directions)
+        {
+            row << direction, r.cross(direction);
+            row.array() *= inverseRoot.array();
+            stiffness += row * row.transpose();
+        }
     return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(stiffness, Eigen::EigenvaluesOnly)
         .eigenvalues()
         .maxCoeff();
@@ -166,14 +168,23 @@ bool canLandOn(const BodyDefinition& body, int axis)
     return !body.isPlanar || std::abs((body.pose.orientation * Vec3::Unit(axis))[body.planeAxis]) < 0.5;
 }
 
-double stiffestFace(const BodyDefinition& body)
+/// Stiffest modes of the body landing flat on any of its faces: springs act in all directions, dashpots only along
+/// the normal.
+struct FaceModes { double springs = 0, dashpots = 0; };
+
+FaceModes stiffestFace(const BodyDefinition& body)
 {
-    double largest = 0;
+    FaceModes modes;
     for (int axis = 0; axis < 3; ++axis)
         for (const double sign : {-1.0, 1.0})
-            if (canLandOn(body, axis))
-                largest = std::max(largest, stiffestMode(body, facePoints(body, axis, sign)));
-    return largest;
+        {
+            if (!canLandOn(body, axis))
+                continue;
+            const std::vector<Vec3> points = facePoints(body, axis, sign);
+            modes.springs = std::max(modes.springs, stiffestMode(body, points, {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}));
+            modes.dashpots = std::max(modes.dashpots, stiffestMode(body, points, {Vec3::Unit(axis)}));
+        }
+    return modes;
 }
 
 } // namespace
@@ -245,19 +256,19 @@ double contactTimeStep(const DemSetup& setup, const ContactTable& table)
     // about this many times that of the body landing on a fixed plane
     constexpr double squeeze = 4;
     constexpr double stepsPerContact = 40;
-    constexpr double stabilityMargin = 0.5;
+    constexpr double stabilityMargin = 0.8;
 
     double step = 1e300;
     const int n = table.size();
     for (size_t b = 0; b < setup.bodies.size(); ++b)
     {
-        const double mode = stiffestFace(setup.bodies[b]);
+        const FaceModes mode = stiffestFace(setup.bodies[b]);
         for (int other = 0; other < n; ++other)
         {
             const size_t entry = static_cast<size_t>(table.classOfBody[b] * n + other);
             const double k = table.stiffness[entry], c = table.damping[entry];
-            const double duration = pi / std::sqrt(k * mode);
-            const double omega2 = squeeze * k * mode, rate = squeeze * c * mode;
+            const double duration = pi / std::sqrt(k * mode.springs);
+            const double omega2 = squeeze * k * mode.springs, rate = squeeze * c * mode.dashpots;
             // velocity Verlet with the dashpot evaluated half a step late is stable for omega^2 dt^2 + 2 rate dt < 4
             const double limit = (std::sqrt(rate * rate + 4 * omega2) - rate) / omega2;
             step = std::min({step, duration / stepsPerContact, stabilityMargin * limit});

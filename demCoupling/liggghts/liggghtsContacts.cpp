@@ -47,16 +47,13 @@ Vec3 pairForce(const ContactTable& table, const LAMMPS_NS::Atom& atoms, int i, i
     const double distance = separation.norm();
     const Vec3 normal = separation / distance;
     const double overlap = atoms.radius[i] + atoms.radius[j] - distance;
-    const Vec3 armI = -(atoms.radius[i] - 0.5 * overlap) * normal, armJ = (atoms.radius[j] - 0.5 * overlap) * normal;
-    const Vec3 slip = asVec(atoms.v[i]) + asVec(atoms.omega[i]).cross(armI) - asVec(atoms.v[j])
-                      - asVec(atoms.omega[j]).cross(armJ);
-    const double normalSpeed = slip.dot(normal);
+    // rotation moves the contact point along the surfaces only
+    const Vec3 approach = asVec(atoms.v[i]) - asVec(atoms.v[j]);
+    const double normalSpeed = approach.dot(normal);
     const double normalForce = std::max(0.0, table.stiffness[entry] * overlap - table.damping[entry] * normalSpeed);
     Vec3 tangential = -table.stiffness[entry] * asVec(spring);
     const double limit = table.friction[entry] * normalForce;
-    if (tangential.norm() < limit)
-        tangential -= table.damping[entry] * (slip - normalSpeed * normal);
-    else if (tangential.norm() > 0)
+    if (tangential.norm() > limit)
         tangential *= limit / tangential.norm();
     return normalForce * normal + tangential;
 }

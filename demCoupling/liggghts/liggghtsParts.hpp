@@ -9,7 +9,6 @@ namespace LAMMPS_NS
 {
 class FixMultisphere;
 class FixMeshSurface;
-class FixContactHistoryMesh;
 }
 
 namespace flotsam

@@ -96,7 +96,7 @@ void writeScript(LiggghtsModel& model, const DemSetup& setup, double timeStep)
     addMaterialTable(model, "kn", model.contacts.stiffness);
     addMaterialTable(model, "kt", model.contacts.stiffness);
     addMaterialTable(model, "gamman_abs", model.contacts.damping);
-    addMaterialTable(model, "gammat_abs", model.contacts.damping);
+    addMaterialTable(model, "gammat_abs", model.contacts.damping); // asked for, not used: see contactModelOptions()
     addMaterialTable(model, "coefficientFriction", model.contacts.friction);
     dem.command("pair_style gran model hooke/stiffness tangential history " + contactModelOptions());
     dem.command("pair_coeff * *");

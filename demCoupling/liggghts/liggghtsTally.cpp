@@ -6,6 +6,7 @@
 #include "mesh_module_stress.h"
 #include "lammps.h"
 #include "modify.h"
+#include "neighbor.h"
 
 namespace flotsam
 {
@@ -37,7 +38,7 @@ void ContactTally::install(LiggghtsModel& model)
     modify.fmask[slot] = model.tally->setmask();
 }
 
-int ContactTally::setmask() { return LAMMPS_NS::FixConst::END_OF_STEP; }
+int ContactTally::setmask() { return LAMMPS_NS::FixConst::END_OF_STEP | LAMMPS_NS::FixConst::PRE_NEIGHBOR; }
 
 bool ContactTally::readBodies()
 {
@@ -54,20 +55,29 @@ bool ContactTally::readBodies()
     return isTouched;
 }
 
-void ContactTally::listTouched()
+void ContactTally::pre_neighbor()
 {
     const LAMMPS_NS::Atom& atoms = *lmp->atom;
-    touched_.clear();
-    for (int i = 0; i < atoms.nlocal; ++i)
-        if (atoms.f[i][0] != 0 || atoms.f[i][1] != 0 || atoms.f[i][2] != 0)
-            touched_.push_back(i);
+    const double skin = lmp->neighbor->skin;
+    nearPlane_.resize(model_.walls.size());
+    for (size_t w = 0; w < model_.walls.size(); ++w)
+    {
+        const WallHandle& wall = model_.walls[w];
+        nearPlane_[w].clear();
+        if (wall.mesh)
+            continue;
+        for (int i = 0; i < atoms.nlocal; ++i)
+            if (std::abs(atoms.x[i][wall.axis] - wall.coordinate) <= atoms.radius[i] + skin)
+                nearPlane_[w].push_back(i);
+    }
 }
 
-Load ContactTally::planeLoad(const WallHandle& wall) const
+Load ContactTally::planeLoad(size_t index) const
 {
     const LAMMPS_NS::Atom& atoms = *lmp->atom;
+    const WallHandle& wall = model_.walls[index];
     Load load;
-    for (const int i : touched_)
+    for (const int i : nearPlane_[index])
     {
         const double* f = wall.force->array_atom[i];
         if (f[0] == 0 && f[1] == 0 && f[2] == 0)
@@ -83,18 +93,27 @@ Load ContactTally::planeLoad(const WallHandle& wall) const
     return load;
 }
 
-void ContactTally::readWalls()
+bool ContactTally::readWalls()
 {
-    listTouched();
+    bool isTouched = false;
     for (size_t w = 0; w < model_.walls.size(); ++w)
-        wallNow_[w] = model_.walls[w].mesh ? meshLoad(*model_.walls[w].mesh) : planeLoad(model_.walls[w]);
+    {
+        wallNow_[w] = model_.walls[w].mesh ? meshLoad(*model_.walls[w].mesh) : planeLoad(w);
+        isTouched = isTouched || !wallNow_[w].force.isZero(0);
+    }
+    return isTouched;
+}
+
+bool ContactTally::readAll()
+{
+    const bool isBodyTouched = readBodies(); // a body squeezed evenly feels nothing, its walls do
+    return readWalls() || isBodyTouched;
 }
 
 void ContactTally::sample()
 {
     wallNow_.assign(model_.walls.size(), {});
-    if (readBodies())
-        readWalls();
+    readAll();
     bodyMean_.assign(bodyNow_.size(), {});
     wallMean_.assign(wallNow_.size(), {});
 }
@@ -115,7 +134,10 @@ void ContactTally::add(double weight)
 
 void ContactTally::start()
 {
+    // the walls' loads are those of the last sub-step, or of the state restored since
     hasContact_ = readBodies();
+    for (const Load& load : wallNow_)
+        hasContact_ = hasContact_ || !load.force.isZero(0);
     bodySum_.assign(bodyNow_.size(), {});
     wallSum_.assign(wallNow_.size(), {});
     if (hasContact_)
@@ -124,14 +146,11 @@ void ContactTally::start()
 
 void ContactTally::end_of_step()
 {
-    if (readBodies())
+    if (readAll())
     {
         hasContact_ = true;
-        readWalls();
         add(1);
     }
-    else
-        wallNow_.assign(wallNow_.size(), {});
 }
 
 void ContactTally::finish(long steps)

@@ -23,6 +23,8 @@ public:
     }
     int setmask() override;
     void end_of_step() override;
+    void setup_pre_neighbor() override { pre_neighbor(); }
+    void pre_neighbor() override;
 
     /// Puts a tally in place of a fix without effect: LIGGGHTS makes fixes only of styles it was compiled with.
     static void install(LiggghtsModel& model);
@@ -41,14 +43,14 @@ public:
 
 private:
     bool readBodies();
-    void listTouched();
-    void readWalls();
-    Load planeLoad(const WallHandle& wall) const;
+    bool readWalls();
+    bool readAll();
+    Load planeLoad(size_t wall) const;
     void add(double weight);
 
     LiggghtsModel& model_;
     std::vector<Load> bodyNow_, bodySum_, bodyMean_, wallNow_, wallSum_, wallMean_;
-    std::vector<int> touched_; ///< spheres with a contact force
+    std::vector<std::vector<int>> nearPlane_; ///< per wall: spheres that can touch it before the next rebuild
     bool hasContact_ = false;
 };
 

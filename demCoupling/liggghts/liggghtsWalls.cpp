@@ -140,7 +140,12 @@ void addMesh(LiggghtsModel& model, const WallDefinition& wall, const TriSurface&
 
 } // namespace
 
-std::string contactModelOptions() { return "absolute_damping on tangential_damping on limitForce on"; }
+std::string contactModelOptions()
+{
+    // limitForce: no attraction at the end of a contact. No tangential dashpot: LIGGGHTS adds it outside Coulomb's
+    // limit, a landing bar then feels up to five times the friction its normal force allows (docs/contact.md)
+    return "absolute_damping on tangential_damping off limitForce on";
+}
 
 std::vector<std::string> words(const std::string& text)
 {

@@ -7,7 +7,8 @@
 #include "core/simplexFaces.hpp"
 
 #include <algorithm>
-#include <stdexcept>
+#include <array>
+#include <utility>
 
 namespace flotsam
 {
@@ -140,6 +141,35 @@ void numberNodes(SimplexMesh& mesh, MPI_Comm comm, int size)
     }
 }
 
+/// Two elements with the same boundary face close a fold of the boundary between them: the face lies inside.
+void removeFoldedFaces(const SimplexMesh& mesh, std::vector<int>& facePatch)
+{
+    const int n = mesh.dim + 1;
+    std::vector<std::pair<std::array<int, 3>, std::size_t>> faces;
+    for (std::size_t k = 0; k < facePatch.size(); ++k)
+    {
+        if (facePatch[k] >= 0)
+        {
+            const int* face = outwardFace(mesh.dim, static_cast<int>(k % n));
+            std::array<int, 3> nodes{-1, -1, -1};
+            for (int b = 0; b < mesh.dim; ++b)
+            {
+                nodes[b] = mesh.elements[k / n * n + face[b]];
+            }
+            std::sort(nodes.begin(), nodes.end());
+            faces.emplace_back(nodes, k);
+        }
+    }
+    std::sort(faces.begin(), faces.end());
+    for (std::size_t i = 1; i < faces.size(); ++i)
+    {
+        if (faces[i].first == faces[i - 1].first)
+        {
+            facePatch[faces[i].second] = facePatch[faces[i - 1].second] = -1;
+        }
+    }
+}
+
 void addPatches(const LocalSimplices& local, const std::vector<int>& facePatch, SimplexMesh& mesh)
 {
     const int n = mesh.dim + 1;
@@ -188,6 +218,7 @@ DistributedSimplices distributeSimplices(const LocalSimplices& local, MPI_Comm c
     const std::vector<std::int64_t> ownKeys(mesh.originalNode.begin(), mesh.originalNode.begin() + mesh.nOwned);
     compactKeys(ownKeys, mesh.originalNode, comm);
     Halo(mesh, comm).update(mesh.x, mesh.dim); // the same bits on every rank, whatever was read
+    removeFoldedFaces(mesh, facePatch);
     addPatches(local, facePatch, mesh);
     mesh.computeGeometry();
     return result;

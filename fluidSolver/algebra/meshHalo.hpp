@@ -16,7 +16,8 @@ struct LocalSimplices
     std::vector<std::int64_t> nodeKey;  ///< means the same node on every rank; not negative; every node is used by an element
     std::vector<double> x;              ///< nodes*dim [m]
     std::vector<int> elements;          ///< n*(dim+1) nodes, positive volume
-    std::vector<int> facePatch;         ///< n*(dim+1): patch of the face opposite to node a, -1 for none
+    std::vector<int> facePatch;         ///< n*(dim+1): patch of the face opposite to node a, -1 for none;
+                                        ///< a face that two elements share is taken off its patch
     std::vector<std::string> patchNames, patchTypes; ///< same on every rank
 };
 

@@ -189,4 +189,11 @@ NodeGraph::NodeGraph(const SimplexMesh& mesh)
     listFaces(mesh, faces);
 }
 
+int NodeGraph::find(int i, int j) const
+{
+    const auto begin = column.begin() + rowStart[i], end = column.begin() + rowStart[i + 1];
+    const auto at = std::lower_bound(begin, end, j);
+    return at != end && *at == j ? static_cast<int>(at - column.begin()) : -1;
+}
+
 } // namespace flotsam

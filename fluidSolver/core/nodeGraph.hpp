@@ -27,6 +27,9 @@ struct NodeGraph
     std::vector<InteriorFace> faces;                ///< faces shared by two local elements
 
     explicit NodeGraph(const SimplexMesh& mesh);
+
+    /// Position in `column` of the neighbour j of owned node i, -1 if they share no element.
+    int find(int i, int j) const;
 };
 
 } // namespace flotsam

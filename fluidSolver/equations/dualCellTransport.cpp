@@ -18,67 +18,11 @@ namespace
 constexpr double bulkTolerance = 1e-12;
 /// Dual cells that a solid fills to more than 1 - this are moved as if they were this large (time step).
 constexpr double smallestCell = 0.3;
+/// Limited volumes below this share of an element are not counted.
+constexpr double reportedLimit = 1e-3;
 constexpr int maxSubSteps = 1000;
 
-template<int dim>
-double dot(const double* a, const double* b)
-{
-    double s = a[0]*b[0] + a[1]*b[1];
-    if constexpr (dim == 3)
-    {
-        s += a[2]*b[2];
-    }
-    return s;
-}
-
-/// What the dual faces of one element share.
-template<int dim>
-struct FaceGeometry
-{
-    static constexpr int n = dim + 1;
-    static constexpr DualFaceWeights weights = DualFaceWeights::of(dim);
-    const double* x[n];
-    const double* u[n];
-    double xSum[dim] = {}, uSum[dim] = {};
-
-    FaceGeometry(const SimplexMesh& mesh, const std::vector<double>& velocity, const int* nodes)
-    {
-        for (int a = 0; a < n; ++a)
-        {
-            x[a] = &mesh.x[std::size_t(nodes[a])*dim];
-            u[a] = &velocity[std::size_t(nodes[a])*dim];
-            for (int d = 0; d < dim; ++d)
-            {
-                xSum[d] += x[a][d];
-                uSum[d] += u[a][d];
-            }
-        }
-    }
-
-    static double atFace(double sum, double a, double b) { return weights.far*sum + (weights.near - weights.far)*(a + b); }
-
-    /// Centroid of the dual face (a, b) relative to corner `from`, and the velocity there.
-    void evaluate(int a, int b, int from, double* offset, double* velocity) const
-    {
-        for (int d = 0; d < dim; ++d)
-        {
-            offset[d] = atFace(xSum[d], x[a][d], x[b][d]) - x[from][d];
-            velocity[d] = atFace(uSum[d], u[a][d], u[b][d]);
-        }
-    }
-};
-
 } // namespace
-
-struct DualCellTransport::Arguments
-{
-    std::vector<double>& alpha;
-    double dt;
-    const std::vector<double>& u;
-    const std::vector<double>& fineScale;
-    const Cover* cover;
-    const std::vector<PairFlux>& pairFlux;
-};
 
 DualCellTransport::DualCellTransport(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo,
     const NumericsControls& controls)
@@ -106,16 +50,6 @@ void DualCellTransport::useCover(const Cover* cover)
         dualVolume_ = wholeVolume_;
     }
     hasSolids_ = cover != nullptr;
-}
-
-double DualCellTransport::liquidOf(const std::vector<double>& alpha) const
-{
-    double sum = 0;
-    for (int i = 0; i < mesh_.nOwned; ++i)
-    {
-        sum += dualVolume_[i]*alpha[i];
-    }
-    return sum;
 }
 
 /// Elements in which alpha varies, and the nodes that may change in this sub-step.
@@ -192,34 +126,6 @@ void DualCellTransport::clearSums()
     }
 }
 
-template<int dim>
-void DualCellTransport::storeVolumeFluxes(const Arguments& in)
-{
-    using Pairs = CornerPairs<dim>;
-    flux_.resize(nInnerActive_*Pairs::count);
-    for (std::size_t k = 0; k < nInnerActive_; ++k)
-    {
-        const int e = activeElements_[k];
-        const int* nodes = &mesh_.elements[std::size_t(e)*(dim + 1)];
-        double* flux = &flux_[k*Pairs::count];
-        volumeFlux_.ofElement<dim>(e, in.u, in.fineScale, in.cover, flux);
-        for (int p = 0; p < Pairs::count; ++p)
-        {
-            const int a = nodes[Pairs::first[p]], b = nodes[Pairs::second[p]];
-            const int from = flux[p] > 0 ? a : b, to = flux[p] > 0 ? b : a;
-            const double size = std::abs(flux[p]);
-            inflowSum_[to] += size;
-            gain_[to] += size*(in.alpha[from] - in.alpha[to]);
-        }
-    }
-    for (const PairFlux& pair : in.pairFlux)
-    {
-        const int from = pair.flux > 0 ? pair.a : pair.b, to = pair.flux > 0 ? pair.b : pair.a;
-        inflowSum_[to] += std::abs(pair.flux);
-        gain_[to] += std::abs(pair.flux)*(in.alpha[from] - in.alpha[to]);
-    }
-}
-
 void DualCellTransport::addBoundaryInflow(const std::vector<double>& alpha)
 {
     for (const BoundaryFlux& b : boundary_.fluxes())
@@ -254,110 +160,6 @@ double DualCellTransport::largestRate(const Arguments& in)
             + std::to_string(maxSubSteps*controls_.transportCourant) + "): the velocity is wrong or the step too long");
     }
     return rate;
-}
-
-/// antiFlux_ = F (alpha of the profile at the face - alpha of the upwind cell), from the first corner to the second.
-template<int dim>
-void DualCellTransport::addFaceValues(const Arguments& in, double dt)
-{
-    using Pairs = CornerPairs<dim>;
-    constexpr int n = dim + 1;
-    antiFlux_.resize(flux_.size());
-    for (std::size_t k = 0; k < nInnerActive_; ++k)
-    {
-        const int e = activeElements_[k];
-        const int* nodes = &mesh_.elements[std::size_t(e)*n];
-        const double* flux = &flux_[k*Pairs::count];
-        double* antiFlux = &antiFlux_[k*Pairs::count];
-        const FaceGeometry<dim> geometry(mesh_, in.u, nodes);
-
-        bool hasRoof = false;
-        for (int a = 0; a < n; ++a)
-        {
-            hasRoof = hasRoof || reconstruction_.profile(nodes[a]).kind == NodeProfile::Kind::Roof;
-        }
-        double gradient[dim] = {}, gradientLength = 1e-30;
-        if (hasRoof)
-        {
-            const double* g = &mesh_.gradN[std::size_t(e)*n*dim];
-            for (int a = 0; a < n; ++a)
-            {
-                for (int d = 0; d < dim; ++d)
-                {
-                    gradient[d] += reconstruction_.level(nodes[a])*g[a*dim + d];
-                }
-            }
-            gradientLength += std::sqrt(dot<dim>(gradient, gradient));
-        }
-
-        for (int p = 0; p < Pairs::count; ++p)
-        {
-            const int a = Pairs::first[p], b = Pairs::second[p], upwind = flux[p] > 0 ? a : b;
-            const NodeProfile& profile = reconstruction_.profile(nodes[upwind]);
-            if (profile.kind == NodeProfile::Kind::Bulk || flux[p] == 0)
-            {
-                antiFlux[p] = 0;
-                continue;
-            }
-            double offset[dim], velocity[dim];
-            geometry.evaluate(a, b, upwind, offset, velocity);
-            double psi, swept;
-            if (profile.kind == NodeProfile::Kind::Front)
-            {
-                psi = profile.value + profile.steepness*dot<dim>(profile.normal, offset);
-                swept = profile.steepness*dt*dot<dim>(profile.normal, velocity);
-            }
-            else
-            {
-                const double scale = std::min(profile.roofFactor, 1/gradientLength)*profile.steepness;
-                psi = profile.value + scale*dot<dim>(gradient, offset);
-                swept = scale*dt*dot<dim>(gradient, velocity);
-            }
-            antiFlux[p] = flux[p]*(sweptMean(psi, swept) - in.alpha[nodes[upwind]]);
-        }
-    }
-}
-
-/// The Allen-Cahn flux gamma delta grad alpha (1 - 1/|grad level|), which vanishes in the equilibrium profile
-/// (ratio form). mobility: gamma [m/s].
-template<int dim>
-void DualCellTransport::addModelFlux(const Arguments& in, double mobility)
-{
-    using Pairs = CornerPairs<dim>;
-    constexpr int n = dim + 1;
-    for (std::size_t k = 0; k < nInnerActive_; ++k)
-    {
-        const int e = activeElements_[k];
-        if (in.cover && in.cover->state[e] != ElementState::Fluid)
-        {
-            continue;
-        }
-        const int* nodes = &mesh_.elements[std::size_t(e)*n];
-        const double* g = &mesh_.gradN[std::size_t(e)*n*dim];
-        double slope[dim] = {}, gradient[dim] = {}, width = 0;
-        bool inBand = false;
-        for (int a = 0; a < n; ++a)
-        {
-            const int i = nodes[a];
-            inBand = inBand || reconstruction_.profile(i).kind != NodeProfile::Kind::Bulk;
-            width += width_[i]/n;
-            for (int d = 0; d < dim; ++d)
-            {
-                slope[d] += in.alpha[i]*g[a*dim + d];
-                gradient[d] += reconstruction_.level(i)*g[a*dim + d];
-            }
-        }
-        const double length = std::sqrt(dot<dim>(gradient, gradient));
-        if (!inBand || length <= 0)
-        {
-            continue;
-        }
-        const double factor = mobility*width*(1 - std::min(2., 1/length))*mesh_.volume[e]/n;
-        for (int p = 0; p < Pairs::count; ++p)
-        {
-            antiFlux_[k*Pairs::count + p] -= factor*(dot<dim>(slope, g + Pairs::second[p]*dim) - dot<dim>(slope, g + Pairs::first[p]*dim));
-        }
-    }
 }
 
 /// Zalesak's limiter with the global bounds 0 and 1: how much of the sums of a node may act. One exchange.
@@ -405,7 +207,7 @@ void DualCellTransport::update(const Arguments& in, double dt, TransportReport& 
         const double factor = std::min(limiter_[2*std::size_t(to)], limiter_[2*std::size_t(from) + 1]);
         gain_[to] += factor*flux;
         gain_[from] -= factor*flux;
-        report.nLimited += factor < 1 && (1 - factor)*flux*dt > bulkTolerance*mesh_.volume[e] && mesh_.isOwnedElement[e];
+        report.nLimited += factor < 1 && (1 - factor)*flux*dt > reportedLimit*mesh_.volume[e] && mesh_.isOwnedElement[e];
     });
     for (int i : activeNodes_)
     {
@@ -442,12 +244,7 @@ void DualCellTransport::advanceAll(const Arguments& in, TransportReport& report)
     double mobility = 0;
     if (controls_.mobility > 0)
     {
-        double fastest = 0;
-        for (int i = 0; i < mesh_.nOwned; ++i)
-        {
-            fastest = std::max(fastest, dot<dim>(&in.u[std::size_t(i)*dim], &in.u[std::size_t(i)*dim]));
-        }
-        mobility = controls_.mobility*std::sqrt(halo_.max(fastest));
+        mobility = controls_.mobility*largestSpeed(mesh_, halo_, in.u);
     }
     double remaining = in.dt;
     while (remaining > 0)
@@ -460,8 +257,7 @@ void DualCellTransport::advanceAll(const Arguments& in, TransportReport& report)
         const int nLeft = std::max(1, static_cast<int>(std::ceil(remaining*rate/controls_.transportCourant - 1e-9)));
         const double dt = remaining/nLeft;
 
-        std::vector<int>& nodes = activeNodes_;
-        reconstruction_.build(in.alpha, activeElements_, nodes, in.cover);
+        reconstruction_.build(in.alpha, activeElements_, activeNodes_, in.cover);
         addFaceValues<dim>(in, dt);
         if (mobility > 0)
         {
@@ -474,49 +270,13 @@ void DualCellTransport::advanceAll(const Arguments& in, TransportReport& report)
     }
 }
 
-/// alpha += c alpha (1 - alpha), |c| <= 1 keeps the bounds and makes the volume linear in c.
-void DualCellTransport::restoreVolume(std::vector<double>& alpha, TransportReport& report)
-{
-    const double target = report.liquidAfter;
-    for (int iteration = 0; iteration < 5; ++iteration)
-    {
-        double sums[2] = {0, 0};
-        for (int i = 0; i < mesh_.nOwned; ++i)
-        {
-            sums[0] += dualVolume_[i]*alpha[i];
-            sums[1] += dualVolume_[i]*alpha[i]*(1 - alpha[i]);
-        }
-        halo_.sum(sums, 2);
-        if (iteration == 0)
-        {
-            report.redistributed = target - sums[0];
-        }
-        report.liquidAfter = sums[0];
-        const double missing = target - sums[0];
-        if (sums[1] <= 0 || std::abs(missing) <= 1e-15*std::abs(target))
-        {
-            return;
-        }
-        const double c = std::clamp(missing/sums[1], -1., 1.);
-        for (int i = 0; i < mesh_.nNodes; ++i)
-        {
-            alpha[i] += c*alpha[i]*(1 - alpha[i]);
-        }
-        if (std::abs(missing/sums[1]) <= 1)
-        {
-            report.liquidAfter = target;
-            return;
-        }
-    }
-}
-
 TransportReport DualCellTransport::advance(std::vector<double>& alpha, double dt, const std::vector<double>& u,
     const std::vector<double>& fineScale, const Cover* cover, const std::vector<BoundaryPatch>& patches,
     const std::vector<PatchValues>& values, const std::vector<char>& isPressureFixed, const std::vector<PairFlux>& pairFlux)
 {
     TransportReport report;
     useCover(cover);
-    const double measured = halo_.sum(liquidOf(alpha));
+    const double measured = halo_.sum(liquidOf(mesh_, dualVolume_, alpha));
     report.liquidBefore = cover && std::isfinite(liquidVolume_) ? liquidVolume_ : measured;
 
     boundary_.evaluate(u, fineScale, cover, patches, values, isPressureFixed, pairFlux);
@@ -540,8 +300,7 @@ TransportReport DualCellTransport::advance(std::vector<double>& alpha, double dt
     report.nBand = std::lround(sums[4]);
     report.minAlpha = halo_.min(report.minAlpha);
     report.maxAlpha = halo_.max(report.maxAlpha);
-    report.liquidAfter = report.liquidBefore + report.inflow - report.outflow;
-    restoreVolume(alpha, report);
+    restoreLiquid(mesh_, halo_, dualVolume_, alpha, report);
     if (cover)
     {
         liquidVolume_ = report.liquidAfter;

@@ -9,22 +9,12 @@
 #include "core/controls.hpp"
 #include "equations/profileReconstruction.hpp"
 #include "equations/transportBoundary.hpp"
+#include "equations/transportReport.hpp"
 #include "equations/volumeFlux.hpp"
 #include "geometry/cover.hpp"
 
 namespace flotsam
 {
-
-struct TransportReport
-{
-    int subSteps = 0;
-    double liquidBefore = 0, liquidAfter = 0;   ///< int alpha over the fluid part, all ranks [m^dim]
-    double inflow = 0, outflow = 0;             ///< liquid volume that crossed the boundary in this step, both >= 0
-    double redistributed = 0;                   ///< liquid moved by the global correction (cut cells that change size)
-    double minAlpha = 0, maxAlpha = 1;          ///< before values beyond [0,1] are cut to it
-    long nLimited = 0;                          ///< faces on which the bounds limiter acted
-    long nRoof = 0, nBand = 0;                  ///< in the last sub-step, all ranks
-};
 
 class DualCellTransport
 {
@@ -59,7 +49,16 @@ public:
     void setLiquidVolume(double volume) { liquidVolume_ = volume; }
 
 private:
-    struct Arguments;
+    /// What every sub-step reads; alpha is advanced in place.
+    struct Arguments
+    {
+        std::vector<double>& alpha;
+        double dt;
+        const std::vector<double>& u;
+        const std::vector<double>& fineScale;
+        const Cover* cover;
+        const std::vector<PairFlux>& pairFlux;
+    };
     template<int dim> void advanceAll(const Arguments& arguments, TransportReport& report);
     void findActive(const std::vector<double>& alpha, const std::vector<PairFlux>& pairFlux);
     template<int dim> void storeVolumeFluxes(const Arguments& arguments);
@@ -72,8 +71,6 @@ private:
     template<int dim> void update(const Arguments& arguments, double dt, TransportReport& report);
     void countBoundary(const std::vector<double>& alpha, double dt, TransportReport& report) const;
     void useCover(const Cover* cover);
-    double liquidOf(const std::vector<double>& alpha) const;
-    void restoreVolume(std::vector<double>& alpha, TransportReport& report);
     double effectiveVolume(int i) const;
 
     const SimplexMesh& mesh_;

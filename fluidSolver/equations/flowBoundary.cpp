@@ -157,8 +157,7 @@ void FlowEquation::applyConstraints(const std::vector<PatchValues>& values, std:
         {
             const BoundaryPatch& patch = patches_[p];
             if (patch.velocity != BoundaryPatch::Velocity::Fixed) continue;
-            const bool isWall = mesh_.patches[patch.meshPatch].type == "wall";
-            if (isWall != (pass == 1)) continue;
+            if (patch.isNoSlipWall != (pass == 1)) continue;
             for (std::size_t k = 0; k < patch.nodes.size(); ++k)
                 for (int d = 0; d < dim; ++d)
                     x[std::size_t(patch.nodes[k])*B + d] = values[p].velocity[k*dim + d];
@@ -216,9 +215,14 @@ void FlowEquation::assembleOpenBoundaries()
                 // boundary part of the skew-symmetric convection where the fluid leaves (lumped)
                 double* m = &system_.matrix[std::size_t(graph_.diagonal[i])*B*B];
                 for (int d = 0; d < D; ++d) m[d*B + d] += 0.5*rho_[i]*std::max(flux, 0.0);
-                // external pressure: - int p_ext w.n
+                // - int p_ext w.n; without a prescribed pressure the unknown's own value acts
                 const double weight = (sum + pressure[k])/(D*(D + 1));
                 for (int d = 0; d < D; ++d) system_.rhs[std::size_t(i)*B + d] -= weight*v[d];
+                for (int l = 0; l < D && !hasPressure; ++l)
+                {
+                    double* block = &system_.matrix[std::size_t(graph_.find(i, nodes[l]))*B*B];
+                    for (int d = 0; d < D; ++d) block[d*B + D] += (k == l ? 2.0 : 1.0)/(D*(D + 1))*v[d];
+                }
             }
         }
     }

@@ -4,6 +4,7 @@
 
 #include "algebra/flowSystem.hpp"
 #include "equations/elementLoader.hpp"
+#include "equations/volumeFlux.hpp"
 
 namespace flotsam
 {
@@ -45,7 +46,6 @@ public:
 
     /// Volume fluxes of the pressure ghost terms between node pairs, for the conservative transport:
     /// row contributions r_i of face nodes as (r_i - r_j)/(dim+2).
-    struct PairFlux { int a, b; double flux; };
     void ghostFluxes(const std::vector<double>& x, std::vector<PairFlux>& result) const;
 
     FlowSystem& system() { return system_; }

@@ -63,6 +63,7 @@ TransportReport Fluid::beginStep(double dt)
     before_.alpha = state_.alpha;
     before_.alphaOld = state_.alphaOld;
     before_.alphaOlder = state_.alphaOlder;
+    liquidBefore_ = transport_.liquidVolume();
     time_ = TimeScheme::bdf(controls_.timeOrder, dt, state_.dt);
     TransportReport report;
     if (fluid_.isTwoPhase)
@@ -72,7 +73,7 @@ TransportReport Fluid::beginStep(double dt)
         state_.alphaOld = state_.alpha;
         report = transport_.advance(state_.alpha, dt, halfStep(state_.u, state_.uOld, dt, workU_),
             halfStep(state_.fineScale, state_.fineScaleOld, dt, workFine_), cover_, patches_, values_,
-            equation_.system().isPressureFixed);
+            equation_.system().isPressureFixed, ghostFlux_);
     }
     evaluatePatches(state_.time + dt);
     return report;
@@ -206,6 +207,7 @@ void Fluid::endStep()
     moveInactiveNodes();
     std::swap(state_.fineScale, state_.fineScaleOld);
     equation_.fineScale(x_, state_.fineScale);
+    equation_.ghostFluxes(x_, ghostFlux_);
     state_.dtOld = state_.dt;
     state_.dt = time_.dt;
     state_.time += time_.dt;
@@ -217,6 +219,7 @@ void Fluid::rejectStep()
     state_.alpha = before_.alpha;
     state_.alphaOld = before_.alphaOld;
     state_.alphaOlder = before_.alphaOlder;
+    transport_.setLiquidVolume(liquidBefore_);
 }
 
 bool Fluid::isFinite() const

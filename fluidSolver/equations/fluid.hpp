@@ -56,6 +56,9 @@ public:
     const NodeGraph& graph() const { return graph_; }
     const Halo& halo() const { return halo_; }
     const FlowEquation& equation() const { return equation_; }
+    /// Liquid volume the transport keeps to (part of the state) [m^dim].
+    double keptLiquid() const { return transport_.liquidVolume(); }
+    void setKeptLiquid(double volume) { transport_.setLiquidVolume(volume); }
     bool isFinite() const;  ///< the last solution is a number everywhere. Collective.
 
 private:
@@ -84,6 +87,8 @@ private:
     std::vector<double> force_;         // nElements*dim
     std::vector<double> x_, q_;         // solution: nNodes*(dim+1), nDof per solid
     std::vector<double> workU_, workFine_;
+    std::vector<PairFlux> ghostFlux_;   // of the last accepted solve
+    double liquidBefore_ = 0;
     bool geometryChanged_ = true;
 };
 

@@ -14,6 +14,15 @@ constexpr double bandEdge = 1e-4;
 /// Below this ratio |sum of normals|/sum of |normals| a cell gets a roof instead of one front.
 constexpr double coherenceLimit = 0.95;
 
+/// Slope, relative to the equilibrium profile's, below which alpha counts as mixed: there is no surface to keep sharp
+/// (and where the width varies with the mesh, a constant alpha has a slope of this order).
+constexpr double flatSlope = 0.05;
+
+bool isInBand(double alpha)
+{
+    return alpha > bandEdge && alpha < 1 - bandEdge;
+}
+
 double variation(double alpha)
 {
     return alpha*(1 - alpha);
@@ -76,18 +85,25 @@ void ProfileReconstruction::sumNormals(const std::vector<double>& alpha, const s
     constexpr int n = dim + 1;
     constexpr double clip = 1e-4;   // the same tail value whatever round-off has left in the bulk
     const double floorLevel = std::log(clip/(1 - clip));
+    bandElements_.clear();
     for (int e : elements)
     {
+        const int* nodes = &mesh_.elements[std::size_t(e)*n];
+        if (std::none_of(nodes, nodes + n, [&](int i) { return isInBand(alpha[i]); }))
+        {
+            continue;
+        }
+        bandElements_.push_back(e);
         for (int a = 0; a < n; ++a)
         {
-            const int i = mesh_.elements[std::size_t(e)*n + a];
+            const int i = nodes[a];
             const double q = alpha[i];
             level_[i] = width_[i]*(q <= clip ? floorLevel : q >= 1 - clip ? -floorLevel : std::log(q/(1 - q)));
             coherence_[i] = 0;
             std::fill_n(&normalSum_[std::size_t(i)*dim], dim, 0.);
         }
     }
-    for (int e : elements)
+    for (int e : bandElements_)
     {
         if (cover && cover->state[e] == ElementState::Solid)
         {
@@ -110,6 +126,10 @@ void ProfileReconstruction::sumNormals(const std::vector<double>& alpha, const s
         for (int d = 0; d < dim; ++d)
         {
             length += gradient[d]*gradient[d];
+        }
+        if (length < flatSlope*flatSlope)
+        {
+            continue;
         }
         length = weight*std::sqrt(length);
         for (int a = 0; a < n; ++a)
@@ -199,6 +219,11 @@ void ProfileReconstruction::build(const std::vector<double>& alpha, const std::v
     for (int i : nodes)
     {
         NodeProfile& p = profile_[i];
+        p.kind = NodeProfile::Kind::Tail;
+        if (!isInBand(alpha[i]))
+        {
+            continue;
+        }
         p.kind = NodeProfile::Kind::Bulk;
         const double* g = &normalSum_[std::size_t(i)*dim];
         double length = 0;
@@ -207,7 +232,7 @@ void ProfileReconstruction::build(const std::vector<double>& alpha, const std::v
             length += g[d]*g[d];
         }
         length = std::sqrt(length);
-        if (alpha[i] <= bandEdge || alpha[i] >= 1 - bandEdge || length <= 1e-12*coherence_[i] || length <= 0)
+        if (length <= 1e-12*coherence_[i] || length <= 0)
         {
             continue;
         }

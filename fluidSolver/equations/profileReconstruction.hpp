@@ -17,7 +17,7 @@ namespace flotsam
 /// psi(x) = value + steepness normal.(x - x_node) (front), or per element (roof).
 struct NodeProfile
 {
-    enum class Kind : int { Bulk, Front, Roof };
+    enum class Kind : int { Tail, Bulk, Front, Roof };
     double normal[3];       ///< unit, into the liquid (front)
     double value;           ///< psi at the node
     double steepness;       ///< 1/width [1/m]
@@ -49,7 +49,7 @@ public:
         const std::vector<double>& width);
 
     /// `elements`: all local elements in which alpha varies; `nodes`: owned and first-ring nodes of them. Fills profile() of
-    /// `nodes` and level() of all nodes of `elements`. Solid elements of `cover` (may be null) are not read.
+    /// `nodes` and level() of all nodes of elements with a node in the band. Solid elements of `cover` (may be null) are not read.
     void build(const std::vector<double>& alpha, const std::vector<int>& elements, const std::vector<int>& nodes,
         const Cover* cover);
 
@@ -74,6 +74,7 @@ private:
     ShareMoments moments_;
     std::vector<NodeProfile> profile_;
     std::vector<double> level_, normalSum_, coherence_;
+    std::vector<int> bandElements_;
     long nFronts_ = 0, nRoofs_ = 0;
 };
 

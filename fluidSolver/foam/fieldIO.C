@@ -65,8 +65,8 @@ private:
     const Halo& halo_;
 };
 
-/// Means of the nodal values over the fluid part of the simplices of a cell; over all of it where no fluid is.
-void cellMean(const MeshAdapter& adapter, const Cover* cover, const std::vector<double>& nodal, int cell, double* mean)
+/// Means of the nodal values over the fluid part of the simplices of a cell; over all of it where no fluid is (then false).
+bool cellMean(const MeshAdapter& adapter, const Cover* cover, const std::vector<double>& nodal, int cell, double* mean)
 {
     const SimplexMesh& mesh = adapter.mesh;
     const int n = mesh.dim + 1;
@@ -90,8 +90,9 @@ void cellMean(const MeshAdapter& adapter, const Cover* cover, const std::vector<
         }
         if (volume <= 0) continue;
         for (int j = 0; j < nodalWidth; ++j) mean[j] /= volume;
-        return;
+        return fluidOnly;
     }
+    return false;
 }
 
 /// Patch values are set without evaluating conditions; only coupled (processor) patches exchange their cells' values.
@@ -169,7 +170,7 @@ bool FoamFields::isNeeded() const
 void FoamFields::update(const FlowState& state, const Cover* cover, const std::vector<Solid>& solids)
 {
     updateNodal(state, cover, solids);
-    updateCells(cover);
+    updateCells(cover, solids);
     updatePatches();
     updatePointFields();
     if (cover) updateSolidFraction(*cover);
@@ -197,18 +198,29 @@ void FoamFields::updateNodal(const FlowState& state, const Cover* cover, const s
     }
 }
 
-void FoamFields::updateCells(const Cover* cover)
+void FoamFields::updateCells(const Cover* cover, const std::vector<Solid>& solids)
 {
     double mean[nodalWidth];
     const Foam::label nCells = mesh_.nCells();
     for (Foam::label c = 0; c < nCells; ++c)
     {
-        cellMean(adapter_, cover, nodal_, c, mean);
+        const bool hasFluid = cellMean(adapter_, cover, nodal_, c, mean);
+        if (cover && !hasFluid) rigidVelocity(*cover, solids, c, mean);
         velocity_[c] = Foam::vector(mean[Ux], mean[Uy], mean[Uz]);
         (*pressure_)[c] = mean[P];
         if (pressureRgh_) (*pressureRgh_)[c] = mean[Prgh];
         if (alpha_) (*alpha_)[c] = mean[Alpha];
     }
+}
+
+void FoamFields::rigidVelocity(const Cover& cover, const std::vector<Solid>& solids, Foam::label cell, double* velocity) const
+{
+    const SimplexMesh& mesh = adapter_.mesh;
+    const int solid = cover.nearestSolid[mesh.elements[adapter_.cellElements[adapter_.cellStart[cell]]*(mesh.dim + 1)]];
+    if (solid < 0) return;
+    const Foam::point& x = mesh_.C()[cell];
+    const Vec3 u = solids[solid].velocityAt(Vec3(x.x(), x.y(), x.z()));
+    for (int d = 0; d < mesh.dim; ++d) velocity[mesh.axes[d]] = u[mesh.axes[d]];
 }
 
 void FoamFields::updateSolidFraction(const Cover& cover)

@@ -2,7 +2,7 @@
 #include "foam/simplexSplit.H"
 
 #include "emptyPolyPatch.H"
-#include "foam/faceFan.H"
+#include "foam/faceTriangles.H"
 
 #include <algorithm>
 
@@ -106,7 +106,7 @@ scalar signedArea(const point& a, const point& b, const point& c, const MeshPlan
     return 0.5 * ((b[i] - a[i]) * (c[j] - a[j]) - (b[j] - a[j]) * (c[i] - a[i]));
 }
 
-void addTriangle(const MeshPlane& plane, const point& x, int apex, const pointField& p, label b, label c, SimplexSplit& split)
+void addTriangle(const MeshPlane& plane, const point& x, int apex, const pointField& p, int b, int c, SimplexSplit& split)
 {
     if (signedArea(x, p[b], p[c], plane) < 0)
     {
@@ -115,17 +115,17 @@ void addTriangle(const MeshPlane& plane, const point& x, int apex, const pointFi
     split.elements.insert(split.elements.end(), {apex, b, c});
 }
 
-/// Fan from one of the points, or from the face's centre when that leaves (nearly) flat triangles.
-void splitFace(const polyMesh& mesh, const MeshPlane& plane, const labelList& order, label celli, label facei, SimplexSplit& split)
+/// Without a new point, or from the face's centre when that leaves (nearly) flat triangles.
+void splitFace(const polyMesh& mesh, const MeshPlane& plane, const labelList& order, label celli, label facei,
+    std::vector<Triangle>& triangles, SimplexSplit& split)
 {
     const pointField& p = mesh.points();
     const face& f = mesh.faces()[facei];
-    const label n = f.size(), start = fanStart(p, f, order);
-    if (worstTriangle(p, f, start) > leastFraction)
+    if (triangulate(p, f, order, {}, triangles) > leastFraction)
     {
-        for (label i = 1; i + 1 < n; ++i)
+        for (const Triangle& t : triangles)
         {
-            addTriangle(plane, p[f[start]], f[start], p, f[(start + i) % n], f[(start + i + 1) % n], split);
+            addTriangle(plane, p[t[0]], t[0], p, t[1], t[2], split);
         }
         return;
     }
@@ -196,10 +196,11 @@ SimplexSplit splitIntoTriangles(const polyMesh& mesh, const MeshPlane& plane, co
     const labelList lowerFace = findLowerFaces(mesh, plane, split.pointVertex);
     split.cellStart.setSize(mesh.nCells() + 1);
     split.elements.reserve(6 * static_cast<std::size_t>(mesh.nCells()));
+    std::vector<Triangle> triangles;
     forAll(lowerFace, celli)
     {
         split.cellStart[celli] = label(split.elements.size() / 3);
-        splitFace(mesh, plane, order, celli, lowerFace[celli], split);
+        splitFace(mesh, plane, order, celli, lowerFace[celli], triangles, split);
     }
     split.cellStart[mesh.nCells()] = label(split.elements.size() / 3);
     split.facePatch.assign(split.elements.size(), -1);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam/simplexSplit.H"
 
-#include "foam/faceFan.H"
+#include "foam/faceTriangles.H"
 
 #include <algorithm>
 
@@ -46,7 +46,7 @@ class CellSplitter
 {
 public:
     CellSplitter(const polyMesh& mesh, const labelList& order)
-        : mesh_(mesh), order_(order), fan_(fanStarts(mesh, order)), volumes_(mesh.cellVolumes())
+        : mesh_(mesh), order_(order), faces_(mesh, order), volumes_(mesh.cellVolumes())
     {}
 
     SimplexSplit split(const labelList& patchOfFace)
@@ -96,12 +96,12 @@ private:
 
     void splitFromCentre(label celli)
     {
-        const point& centre = mesh_.cellCentres()[celli];
         const int vertex = mesh_.nPoints() + int(split_.centres.size());
+        const point centre = visiblePoint(celli);
         const scalar quality = pull(celli, vertex, centre) / volumes_[celli];
         if (!(quality > VSMALL))
         {
-            FatalErrorInFunction << "cell " << celli << " with its centre at " << centre
+            FatalErrorInFunction << "cell " << celli << " with its centre at " << mesh_.cellCentres()[celli]
                                  << " cannot be split into tetrahedra of positive volume: it is strongly concave or warped (smallest one "
                                  << quality << " of the cell's volume). Run checkMesh -allGeometry and improve the mesh there."
                                  << exit(FatalError);
@@ -109,6 +109,51 @@ private:
         split_.centreCell.push_back(celli);
         split_.centres.push_back(centre);
         best_.swap(trial_);
+    }
+
+    /// The point that sees all triangles of the cell from the inside at the largest distance, nearly: from the cell's centre,
+    /// away from the triangle that is nearest (or on the wrong side), with steps that shrink.
+    point visiblePoint(label celli)
+    {
+        point x = mesh_.cellCentres()[celli], best = x;
+        scalar bestDistance = -VGREAT, step = 0.2 * Foam::cbrt(volumes_[celli]);
+        constexpr int nSteps = 100;
+        for (int i = 0; i < nSteps; ++i, step *= 0.96)
+        {
+            vector inward;
+            const scalar distance = nearestTriangle(celli, x, inward);
+            if (distance > bestDistance)
+            {
+                bestDistance = distance;
+                best = x;
+            }
+            x += step * inward;
+        }
+        return best;
+    }
+
+    /// Signed distance to the plane of the nearest triangle of the cell (positive inside) and that triangle's inward normal.
+    scalar nearestTriangle(label celli, const point& x, vector& inward) const
+    {
+        const pointField& p = mesh_.points();
+        scalar nearest = VGREAT;
+        for (const label facei : mesh_.cells()[celli])
+        {
+            const scalar sign = mesh_.faceOwner()[facei] == celli ? -1 : 1;
+            for (int k = faces_.start[facei]; k < faces_.start[facei + 1]; ++k)
+            {
+                const Triangle& t = faces_.triangles[k];
+                const vector area = (p[t[1]] - p[t[0]]) ^ (p[t[2]] - p[t[0]]);
+                const vector normal = sign * area / (mag(area) + VSMALL);
+                const scalar distance = (x - p[t[0]]) & normal;
+                if (distance < nearest)
+                {
+                    nearest = distance;
+                    inward = normal;
+                }
+            }
+        }
+        return nearest;
     }
 
     /// The cell's points, lowest order first.
@@ -124,22 +169,38 @@ private:
         cellPoints_.erase(std::unique(cellPoints_.begin(), cellPoints_.end()), cellPoints_.end());
     }
 
-    bool isFannedFrom(label facei, label pointi) const
+    /// Do all triangles of a face hold the apex? Appends the edges opposite to it.
+    bool isFannedFrom(label facei, int apex)
     {
-        const face& f = mesh_.faces()[facei];
-        const label k = fan_[facei];
-        return f.size() == 3 || f[k] == pointi || (f.size() == 4 && f[(k + 2) % 4] == pointi);
+        for (int k = faces_.start[facei]; k < faces_.start[facei + 1]; ++k)
+        {
+            const Triangle& t = faces_.triangles[k];
+            const int at = t[0] == apex ? 0 : t[1] == apex ? 1 : 2;
+            if (t[at] != apex)
+            {
+                return false;
+            }
+            rim_.push_back(std::minmax(t[(at + 1) % 3], t[(at + 2) % 3]));
+        }
+        return true;
     }
 
-    /// Fills trial_ with the tetrahedra from the apex; smallest volume, -VGREAT when a face that holds the apex is fanned otherwise.
+    /// The same triangle in two faces of the cell (on both sides of a fold): nothing lies between them.
+    bool hasRepeatedRim()
+    {
+        std::sort(rim_.begin(), rim_.end());
+        return std::adjacent_find(rim_.begin(), rim_.end()) != rim_.end();
+    }
+
+    /// Fills trial_ with the tetrahedra from the apex; smallest volume, -VGREAT when they would not fill the cell conformingly.
     scalar pull(label celli, int apex, const point& x)
     {
         trial_.clear();
+        rim_.clear();
         scalar smallest = VGREAT;
         for (const label facei : mesh_.cells()[celli])
         {
-            const face& f = mesh_.faces()[facei];
-            if (!f.found(apex))
+            if (!mesh_.faces()[facei].found(apex))
             {
                 smallest = min(smallest, joinFace(facei, mesh_.faceOwner()[facei] == celli, apex, x));
             }
@@ -148,21 +209,19 @@ private:
                 return -VGREAT;
             }
         }
-        return trial_.empty() ? -VGREAT : smallest;
+        return trial_.empty() || hasRepeatedRim() ? -VGREAT : smallest;
     }
 
     scalar joinFace(label facei, bool isOwner, int apex, const point& x)
     {
         const pointField& p = mesh_.points();
-        const face& f = mesh_.faces()[facei];
-        const label n = f.size(), k = fan_[facei];
         scalar smallest = VGREAT;
-        for (label i = 1; i + 1 < n; ++i)
+        for (int k = faces_.start[facei]; k < faces_.start[facei + 1]; ++k)
         {
-            const label a = f[k];
-            const label b = f[(k + (isOwner ? i : i + 1)) % n], c = f[(k + (isOwner ? i + 1 : i)) % n];
-            smallest = min(smallest, (((p[a] - x) ^ (p[b] - x)) & (p[c] - x)) / 6);
-            trial_.push_back({apex, a, b, c});
+            const Triangle& t = faces_.triangles[k];
+            const int b = t[isOwner ? 1 : 2], c = t[isOwner ? 2 : 1];
+            smallest = min(smallest, (((p[t[0]] - x) ^ (p[b] - x)) & (p[c] - x)) / 6);
+            trial_.push_back({apex, t[0], b, c});
         }
         return smallest;
     }
@@ -172,23 +231,21 @@ private:
         forAll(patchOfFace, i)
         {
             const label facei = mesh_.nInternalFaces() + i;
-            const face& f = mesh_.faces()[facei];
-            const label n = f.size(), k = fan_[facei];
-            for (label j = 1; j + 1 < n && patchOfFace[i] >= 0; ++j)
+            for (int k = faces_.start[facei]; k < faces_.start[facei + 1] && patchOfFace[i] >= 0; ++k)
             {
-                const int triangle[3] = {f[k], f[(k + j) % n], f[(k + j + 1) % n]};
-                split_.markFace(mesh_.faceOwner()[facei], triangle, patchOfFace[i]);
+                split_.markFace(mesh_.faceOwner()[facei], faces_.triangles[k].data(), patchOfFace[i]);
             }
         }
     }
 
     const polyMesh& mesh_;
     const labelList& order_;
-    const labelList fan_;
+    const FaceTriangles faces_;
     const scalarField& volumes_;
     SimplexSplit split_;
     std::vector<label> cellPoints_;
     std::vector<Tetrahedron> trial_, best_;
+    std::vector<std::pair<int, int>> rim_; // of the faces that hold the apex
 };
 
 } // namespace

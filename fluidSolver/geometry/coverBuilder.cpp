@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/coverBuilder.hpp"
 
-#include "geometry/cutSimplex.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -11,11 +9,9 @@ namespace flotsam
 namespace
 {
 
-// a facet below this, beside a solid part below negligiblePart, comes from nodes that were set just inside a surface
-constexpr double negligibleFacet = 1e-11;
-
 /// How far the distance has to be known around each node: an element that a solid touches has all its nodes within
-/// its longest edge, and a body's surface may still be moved by largestOffset. The owner's value everywhere, so that all ranks evaluate the same nodes.
+/// its longest edge, and a body's surface may still be moved by largestOffset. The owner's value everywhere, so that all
+/// ranks evaluate the same nodes.
 std::vector<double> nodeReach(const SimplexMesh& mesh, const Halo& halo)
 {
     const int nodesPerElement = mesh.dim + 1;
@@ -52,14 +48,14 @@ std::vector<double> nodeSnap(const SimplexMesh& mesh, const Halo& halo)
     return snap;
 }
 
-} // namespace
-
 /// Corner 0..dim of element[side] that is not on the face.
-static int cornerOf(const SimplexMesh& mesh, const InteriorFace& face, int side)
+int cornerOf(const SimplexMesh& mesh, const InteriorFace& face, int side)
 {
     const int* nodes = &mesh.elements[std::size_t(face.element[side]) * (mesh.dim + 1)];
     return static_cast<int>(std::find(nodes, nodes + mesh.dim + 1, face.opposite[side]) - nodes);
 }
+
+} // namespace
 
 CoverBuilder::CoverBuilder(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo)
     : mesh_(mesh), graph_(graph), halo_(halo), bins_(mesh, nodeReach(mesh, halo)), snap_(nodeSnap(mesh, halo)),
@@ -266,184 +262,6 @@ void CoverBuilder::copyFixedCuts()
         cover_.facets.insert(cover_.facets.end(), fixedCover_.facets.begin() + cut.facetStart, fixedCover_.facets.begin() + cut.facetEnd);
         cover_.cuts.back().facetEnd = static_cast<int>(cover_.facets.size());
     }
-}
-
-// --- elements
-
-void CoverBuilder::cutElement(Cover& cover, const std::vector<Solid>& solids, int element) const
-{
-    double distance[4];
-    int nSolid = 0;
-    for (int a = 0; a <= mesh_.dim; ++a)
-    {
-        distance[a] = cover.distance[nodesOf(element)[a]];
-        if (distance[a] < 0) ++nSolid;
-    }
-    cover.cutIndex[element] = -1;
-    if (nSolid == 0) cover.state[element] = ElementState::Fluid;
-    else if (nSolid == mesh_.dim + 1) cover.state[element] = ElementState::Solid;
-    else if (mesh_.dim == 2) cutElementOf<2>(cover, solids, element, distance);
-    else cutElementOf<3>(cover, solids, element, distance);
-}
-
-template <int dim>
-void CoverBuilder::cutElementOf(Cover& cover, const std::vector<Solid>& solids, int element, const double* distance) const
-{
-    const double volume = mesh_.volume[element];
-    double vertices[(dim + 1) * dim];
-    for (int a = 0; a <= dim; ++a)
-        for (int d = 0; d < dim; ++d) vertices[a * dim + d] = mesh_.x[nodesOf(element)[a] * dim + d];
-    const SimplexCut<dim> cut =
-        cutSimplex<dim>(distance, volume, vertices, &mesh_.gradN[std::size_t(element) * (dim + 1) * dim]);
-
-    double area = 0;
-    for (int f = 0; f < cut.nFacets; ++f) area += cut.facets[f].area;
-    const double noArea = negligibleFacet * volume / mesh_.h[element];
-    const bool isFluid = volume - cut.volume < negligiblePart * volume && area < noArea;
-    const bool isSolid = cut.volume < negligiblePart * volume;
-    cover.state[element] = isFluid ? ElementState::Fluid : isSolid ? ElementState::Solid : ElementState::Cut;
-    if (isFluid || isSolid) return;
-
-    cover.cutIndex[element] = static_cast<int>(cover.cuts.size());
-    CutElement& c = cover.cuts.emplace_back();
-    c.element = element;
-    c.volume = cut.volume;
-    std::copy(cut.first, cut.first + dim + 1, c.first);
-    std::copy(cut.second, cut.second + (dim + 1) * (dim + 1), c.second);
-    c.facetStart = static_cast<int>(cover.facets.size());
-    for (int k = 0; k < cut.nFacets; ++k)
-    {
-        CutFacet& f = cover.facets.emplace_back();
-        f.element = element;
-        f.area = cut.facets[k].area;
-        f.nPoints = dim;
-        std::copy(cut.normal, cut.normal + dim, f.normal);
-        double centroid[dim + 1] = {};
-        for (int q = 0; q < dim; ++q)
-        {
-            f.weight[q] = cut.facets[k].weight[q];
-            for (int a = 0; a <= dim; ++a)
-            {
-                f.shape[q][a] = cut.facets[k].shape[q][a];
-                centroid[a] += f.shape[q][a] / dim;
-            }
-        }
-        f.solid = solidAt(cover, solids, element, centroid);
-    }
-    c.facetEnd = static_cast<int>(cover.facets.size());
-}
-
-int CoverBuilder::solidAt(const Cover& cover, const std::vector<Solid>& solids, int element, const double* shape) const
-{
-    const int* nodes = nodesOf(element);
-    int nearest = cover.nearestSolid[nodes[0]];
-    bool isSame = true;
-    for (int a = 1; a <= mesh_.dim; ++a) isSame = isSame && cover.nearestSolid[nodes[a]] == nearest;
-    if (isSame) return nearest;
-
-    Vec3 x = Vec3::Zero();
-    for (int a = 0; a <= mesh_.dim; ++a)
-    {
-        const auto y = mesh_.spacePoint(nodes[a]);
-        x += shape[a] * Vec3(y[0], y[1], y[2]);
-    }
-    double least = 2 * farDistance;
-    for (int a = 0; a <= mesh_.dim; ++a)
-    {
-        const int s = cover.nearestSolid[nodes[a]];
-        if (s < 0) continue;
-        const double d = solids[s].distance(x);
-        if (d < least || (d == least && s < nearest))
-        {
-            least = d;
-            nearest = s;
-        }
-    }
-    return nearest;
-}
-
-void CoverBuilder::findActiveNodes(Cover& cover, const std::vector<int>& elements)
-{
-    ++mark_;
-    for (int e : elements)
-        for (int a = 0; a <= mesh_.dim; ++a)
-        {
-            const int i = nodesOf(e)[a];
-            if (!firstVisit(nodeMark_, i)) continue;
-            bool isActive = false;
-            for (int k = graph_.nodeElementStart[i]; k < graph_.nodeElementStart[i + 1] && !isActive; ++k)
-                isActive = cover.state[graph_.nodeElement[k]] != ElementState::Solid;
-            cover.isActiveNode[i] = isActive;
-        }
-}
-
-/// Halo nodes of the outermost ring do not have all their elements here: the owner knows.
-void CoverBuilder::shareActiveNodes(Cover& cover) const
-{
-    if (halo_.size() == 1) return;
-    std::vector<int> active(cover.isActiveNode.begin(), cover.isActiveNode.end());
-    halo_.update(active, 1);
-    for (int i = mesh_.nOwned; i < mesh_.nNodes; ++i) cover.isActiveNode[i] = static_cast<char>(active[i]);
-}
-
-void CoverBuilder::findGhostFaces(Cover& cover) const
-{
-    const int dim = mesh_.dim;
-    cover.ghostFaces.clear();
-    for (const CutElement& cut : cover.cuts)
-        for (int a = 0; a <= dim; ++a)
-        {
-            const int f = elementFace_[std::size_t(cut.element) * (dim + 1) + a];
-            if (f < 0) continue;
-            const InteriorFace& face = graph_.faces[f];
-            const int other = face.element[face.element[0] == cut.element ? 1 : 0];
-            if (cover.state[other] == ElementState::Solid) continue;
-            if (cover.state[other] == ElementState::Cut && other < cut.element) continue; // seen from there
-            GhostFace& ghost = cover.ghostFaces.emplace_back(GhostFace{f, 0, {0, 0, 0}});
-            const double* g = &mesh_.gradN[(std::size_t(face.element[0]) * (dim + 1) + cornerOf(mesh_, face, 0)) * dim];
-            double length = 0;
-            for (int d = 0; d < dim; ++d) length += g[d] * g[d];
-            length = std::sqrt(length);
-            ghost.area = dim * mesh_.volume[face.element[0]] * length;
-            for (int d = 0; d < dim; ++d) ghost.normal[d] = -g[d] / length;
-        }
-}
-
-// --- sums
-
-/// totals: volume per solid, area per solid, shared elements. An element's solid part goes to the solid nearest to
-/// (or deepest at) one of its nodes.
-void CoverBuilder::account(const Cover& cover, int element, double sign, std::vector<double>& totals) const
-{
-    if (!mesh_.isOwnedElement[element] || cover.state[element] == ElementState::Fluid) return;
-    const int* nodes = nodesOf(element);
-    const int nSolids = static_cast<int>(totals.size() / 2);
-    int deepest = 0, inside = -1;
-    bool isShared = false;
-    for (int a = 0; a <= mesh_.dim; ++a)
-    {
-        if (cover.distance[nodes[a]] < cover.distance[nodes[deepest]]) deepest = a;
-        if (cover.distance[nodes[a]] > 0) continue;
-        isShared = isShared || (inside >= 0 && cover.nearestSolid[nodes[a]] != inside);
-        inside = cover.nearestSolid[nodes[a]];
-    }
-    double volume = mesh_.volume[element];
-    if (cover.state[element] == ElementState::Cut)
-    {
-        const CutElement& cut = cover.cuts[cover.cutIndex[element]];
-        volume -= cut.volume;
-        for (int f = cut.facetStart; f < cut.facetEnd; ++f) totals[nSolids + cover.facets[f].solid] += sign * cover.facets[f].area;
-        if (isShared) totals[2 * nSolids] += sign;
-    }
-    totals[cover.nearestSolid[nodes[deepest]]] += sign * volume;
-}
-
-void CoverBuilder::sumTotals(Cover& cover, std::vector<double> totals, int nSolids) const
-{
-    halo_.sum(totals.data(), static_cast<int>(totals.size()));
-    cover.solidVolume.assign(totals.begin(), totals.begin() + nSolids);
-    cover.solidArea.assign(totals.begin() + nSolids, totals.begin() + 2 * nSolids);
-    cover.nSharedElements = std::lround(totals[2 * nSolids]);
 }
 
 } // namespace flotsam

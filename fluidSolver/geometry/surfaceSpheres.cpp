@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 namespace flotsam
 {
@@ -110,6 +111,33 @@ double ballRadius(const Shape& shape, const SurfacePoint& p, double radius)
     return low;
 }
 
+struct Candidate
+{
+    SurfaceSphere sphere;
+    int rank;   // how far it had to be pushed: corners before edges before faces
+};
+
+/// Balls under the points; where the shape is thinner than the ball, the largest that fits, unless a mere crumb at an edge.
+std::vector<Candidate> candidates(const Shape& shape, const std::vector<SurfacePoint>& points, double r)
+{
+    std::vector<Candidate> result;
+    for (const SurfacePoint& p : points)
+    {
+        const Vec3 start = p.x - r * p.normal;
+        SurfaceSphere s{start, r};
+        if (!pushInside(shape, r, s.centre))
+        {
+            s.radius = ballRadius(shape, p, r);
+            if (s.radius < 0.5 * r) continue;
+            s.centre = p.x - s.radius * p.normal;
+            s.radius = -shape.distance(s.centre);
+        }
+        result.push_back({s, static_cast<int>(20 * (s.centre - start).norm() / r)});
+    }
+    std::stable_sort(result.begin(), result.end(), [](const Candidate& a, const Candidate& b) { return a.rank > b.rank; });
+    return result;
+}
+
 /// Any shape: balls under a dense sampling of the surface, thinned in order. The thinning distance makes neighbours
 /// `spacing` apart at most in a triangular pattern.
 Spheres sampledSpheres(const Shape& shape, double radius, double spacing)
@@ -118,22 +146,12 @@ Spheres sampledSpheres(const Shape& shape, double radius, double spacing)
     const std::vector<SurfacePoint> points = samplePoints(shape.surface(0.5 * spacing), 0.25 * spacing);
     double thickest = 0;
     for (const SurfacePoint& p : points) thickest = std::max(thickest, ballRadius(shape, p, radius));
-    const double r = std::min(radius, thickest * (1 - 1e-6));
     Spheres spheres;
-    for (const SurfacePoint& p : points)
+    for (const Candidate& c : candidates(shape, points, std::min(radius, thickest * (1 - 1e-6))))
     {
-        SurfaceSphere s{p.x - r * p.normal, r};
-        if (!pushInside(shape, r, s.centre))
-        {
-            // thinner than the sphere here: the largest one that fits, unless it is a mere crumb at an edge
-            s.radius = ballRadius(shape, p, r);
-            if (s.radius < 0.5 * r) continue;
-            s.centre = p.x - s.radius * p.normal;
-            s.radius = -shape.distance(s.centre);
-        }
-        const bool isNew = std::none_of(spheres.begin(), spheres.end(),
-            [&](const SurfaceSphere& other) { return (other.centre - s.centre).squaredNorm() < thinning * thinning; });
-        if (isNew) spheres.push_back(s);
+        const bool isNew = std::none_of(spheres.begin(), spheres.end(), [&](const SurfaceSphere& other)
+            { return (other.centre - c.sphere.centre).squaredNorm() < thinning * thinning; });
+        if (isNew) spheres.push_back(c.sphere);
     }
     return spheres;
 }

@@ -37,13 +37,6 @@ void startParallel(const std::string& folder)
     arguments = new Foam::argList(n, list, false, false);
 }
 
-void run(const std::string& command, const std::string& log)
-{
-    // the tools are serial programs: they must not take themselves for ranks of this MPI job
-    const std::string clean = "env -u OMPI_COMM_WORLD_SIZE -u OMPI_COMM_WORLD_RANK -u PMIX_RANK -u PMIX_NAMESPACE ";
-    if (std::system((clean + command + " > " + log + " 2>&1").c_str()) != 0) throw std::runtime_error(command + " failed, see " + log);
-}
-
 std::string contentsOf(const std::string& file)
 {
     std::ifstream in(file);
@@ -51,6 +44,13 @@ std::string contentsOf(const std::string& file)
     std::ostringstream s;
     s << in.rdbuf();
     return s.str();
+}
+
+void run(const std::string& command, const std::string& log)
+{
+    // the tools are serial programs: they must not take themselves for ranks of this MPI job
+    const std::string clean = "env -u OMPI_COMM_WORLD_SIZE -u OMPI_COMM_WORLD_RANK -u PMIX_RANK -u PMIX_NAMESPACE ";
+    if (std::system((clean + command + " > " + log + " 2>&1").c_str()) != 0) throw std::runtime_error(command + " failed:\n" + contentsOf(log));
 }
 
 void replace(const std::string& file, const std::string& from, const std::string& to)
@@ -62,7 +62,7 @@ void replace(const std::string& file, const std::string& from, const std::string
     std::ofstream(file) << s;
 }
 
-std::string sharedName(std::string name)
+std::string sharedText(std::string name)
 {
     int n = static_cast<int>(name.size());
     MPI_Bcast(&n, 1, MPI_INT, 0, MPI_COMM_WORLD);
@@ -93,7 +93,22 @@ std::string messageOf(const std::function<void()>& action)
 
 FoamCase::FoamCase(const std::string& name, const std::vector<Edit>& edits, const std::string& blockMeshDict)
 {
-    if (rank() == 0)
+    std::string failure;
+    if (rank() == 0) failure = prepare(name, edits, blockMeshDict);
+    failure = sharedText(failure); // all ranks give up together
+    if (!failure.empty()) throw std::runtime_error(failure);
+    folder_ = sharedText(folder_);
+    startParallel(folder_);
+    share_ = ranks() > 1 ? folder_ + "/processor" + std::to_string(rank()) : folder_;
+    const std::filesystem::path path(folder_);
+    const std::string caseName = path.filename().string() + (ranks() > 1 ? "/processor" + std::to_string(rank()) : "");
+    time_ = std::make_unique<Foam::Time>(Foam::word("controlDict"), Foam::fileName(path.parent_path().string()), Foam::fileName(caseName));
+    mesh_ = std::make_unique<Foam::fvMesh>(Foam::IOobject(Foam::fvMesh::defaultRegion, time_->timeName(), *time_, Foam::IOobject::MUST_READ));
+}
+
+std::string FoamCase::prepare(const std::string& name, const std::vector<Edit>& edits, const std::string& blockMeshDict)
+{
+    try
     {
         owner_ = std::make_unique<TemporaryFolder>(name);
         folder_ = *owner_ / "case";
@@ -102,14 +117,11 @@ FoamCase::FoamCase(const std::string& name, const std::vector<Edit>& edits, cons
         run("blockMesh -case " + folder_ + " -dict system/" + blockMeshDict, folder_ + "/log.blockMesh");
         if (ranks() > 1) run("decomposePar -case " + folder_, folder_ + "/log.decomposePar");
     }
-    folder_ = sharedName(folder_);
-    MPI_Barrier(MPI_COMM_WORLD);
-    startParallel(folder_);
-    share_ = ranks() > 1 ? folder_ + "/processor" + std::to_string(rank()) : folder_;
-    const std::filesystem::path path(folder_);
-    const std::string caseName = path.filename().string() + (ranks() > 1 ? "/processor" + std::to_string(rank()) : "");
-    time_ = std::make_unique<Foam::Time>(Foam::word("controlDict"), Foam::fileName(path.parent_path().string()), Foam::fileName(caseName));
-    mesh_ = std::make_unique<Foam::fvMesh>(Foam::IOobject(Foam::fvMesh::defaultRegion, time_->timeName(), *time_, Foam::IOobject::MUST_READ));
+    catch (const std::exception& error)
+    {
+        return error.what();
+    }
+    return {};
 }
 
 FoamCase::~FoamCase()

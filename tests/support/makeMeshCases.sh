@@ -4,7 +4,8 @@
 #   obstacle   2D, empty z: a dam-break tank with an obstacle, five graded blocks
 #   upright    2D, empty y: one block in the x-z plane, locally refined (cells with hanging points)
 #   skewed     3D: two graded, skewed blocks
-#   sphere     3D: polyhedra of snappyHexMesh around a sphere
+#   snapped    3D: polyhedra of snappyHexMesh around a rotated box, its edges blunt (folds, concave faces)
+#   bare       skewed without the files that tell the numbers of the undecomposed mesh
 #   cyclic, wedge, layers: meshes the adapter refuses
 set -euo pipefail
 folder=$1
@@ -104,19 +105,23 @@ boundary
 );
 EOF
 decompose skewed "2 1 1" "2 2 1"
+for ranks in 1 2 4; do
+    cp -r skewed.np$ranks bare.np$ranks
+    rm -f bare.np$ranks/processor*/constant/polyMesh/*ProcAddressing
+done
 
-newCase sphere << 'EOF'
+newCase snapped << 'EOF'
 vertices ((0 0 0) (1 0 0) (1 1 0) (0 1 0) (0 0 1) (1 0 1) (1 1 1) (0 1 1));
-blocks (hex (0 1 2 3 4 5 6 7) (8 8 8) simpleGrading (1 1 1));
+blocks (hex (0 1 2 3 4 5 6 7) (12 12 12) simpleGrading (1 1 1));
 boundary (sides { type patch; faces ((0 4 7 3) (1 2 6 5) (0 1 5 4) (3 7 6 2) (0 3 2 1) (4 5 6 7)); });
 EOF
 { header; cat << 'EOF'
 castellatedMesh true; snap true; addLayers false; mergeTolerance 1e-6;
-geometry { ball { type searchableSphere; centre (0.45 0.5 0.52); radius 0.23; } }
+geometry { block { type searchableRotatedBox; origin (0.4 0.3 0.3); span (0.3 0.25 0.4); e1 (1 0.4 0.2); e3 (-0.2 0.1 1); } }
 castellatedMeshControls
 {
     maxLocalCells 100000; maxGlobalCells 200000; minRefinementCells 0; nCellsBetweenLevels 1; features ();
-    refinementSurfaces { ball { level (1 2); } } resolveFeatureAngle 30; refinementRegions {} locationInMesh (0.03 0.04 0.05); allowFreeStandingZoneFaces true;
+    refinementSurfaces { block { level (1 2); } } resolveFeatureAngle 30; refinementRegions {} locationInMesh (0.03 0.04 0.05); allowFreeStandingZoneFaces true;
 }
 snapControls { nSmoothPatch 3; tolerance 2; nSolveIter 30; nRelaxIter 5; }
 addLayersControls { relativeSizes true; layers {} expansionRatio 1; finalLayerThickness 0.3; minThickness 0.1; nGrow 0; featureAngle 60; nRelaxIter 3; nSmoothSurfaceNormals 1; nSmoothNormals 3; nSmoothThickness 10; maxFaceThicknessRatio 0.5; maxThicknessToMedialRatio 0.3; minMedianAxisAngle 90; nBufferCellsNoExtrude 0; nLayerIter 50; }
@@ -126,9 +131,9 @@ meshQualityControls
     minDeterminant 0.001; minFaceWeight 0.05; minVolRatio 0.01; minTriangleTwist -1; nSmoothScale 4; errorReduction 0.75;
 }
 EOF
-} > sphere.np1/system/snappyHexMeshDict
-run sphere.np1 snappyHexMesh -overwrite
-decompose sphere "2 1 1" "2 2 1"
+} > snapped.np1/system/snappyHexMeshDict
+run snapped.np1 snappyHexMesh -overwrite
+decompose snapped "2 1 1" "2 2 1"
 
 unitCube() {    # entries of patch x0, cells across, entries of the ends
     cat << EOF

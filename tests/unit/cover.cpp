@@ -73,6 +73,30 @@ std::vector<double> summary(const Scene& scene, const Cover& cover)
     return sums;
 }
 
+/// Area from the face's nodes; unit normal across its edges, from element 0 to element 1.
+void checkFaceGeometry(const SimplexMesh& mesh, const InteriorFace& face, const GhostFace& ghost)
+{
+    auto point = [&](int node)
+    {
+        const auto x = mesh.spacePoint(node);
+        return Vec3(x[0], x[1], x[2]);
+    };
+    std::vector<Vec3> x;
+    for (int a = 0; a <= mesh.dim; ++a)
+    {
+        const int node = mesh.elements[face.element[0] * (mesh.dim + 1) + a];
+        if (node != face.opposite[0]) x.push_back(point(node));
+    }
+    REQUIRE(static_cast<int>(x.size()) == mesh.dim);
+    const double area = mesh.dim == 2 ? (x[1] - x[0]).norm() : 0.5 * (x[1] - x[0]).cross(x[2] - x[0]).norm();
+    const Vec3 normal(ghost.normal[0], ghost.normal[1], ghost.normal[2]);
+    CHECK(ghost.area == doctest::Approx(area).epsilon(1e-12));
+    CHECK(normal.norm() == doctest::Approx(1).epsilon(1e-12));
+    for (std::size_t k = 1; k < x.size(); ++k) CHECK(std::abs(normal.dot(x[k] - x[0])) < 1e-12);
+    CHECK(normal.dot(point(face.opposite[0]) - x[0]) < 0);
+    CHECK(normal.dot(point(face.opposite[1]) - x[0]) > 0);
+}
+
 void checkSame(const std::vector<double>& a, const std::vector<double>& b)
 {
     REQUIRE(a.size() == b.size());
@@ -118,6 +142,13 @@ TEST_CASE("states, cut indices and facets fit together")
                 CHECK(cover.facets[f].solid >= 0);
             }
         }
+        std::size_t nGhosts = 0;
+        for (const InteriorFace& face : scene.graph.faces)
+        {
+            const ElementState a = cover.state[face.element[0]], b = cover.state[face.element[1]];
+            nGhosts += a != ElementState::Solid && b != ElementState::Solid && (a == ElementState::Cut || b == ElementState::Cut);
+        }
+        CHECK(cover.ghostFaces.size() == nGhosts);
         for (const GhostFace& ghost : cover.ghostFaces)
         {
             const InteriorFace& face = scene.graph.faces[ghost.face];
@@ -128,6 +159,7 @@ TEST_CASE("states, cut indices and facets fit together")
                 nCut += cover.state[e] == ElementState::Cut;
             }
             CHECK(nCut > 0);
+            checkFaceGeometry(mesh, face, ghost);
         }
         // nodal distances are the nearest solid's, and known wherever they are small
         for (int i = 0; i < mesh.nNodes; ++i)

@@ -1,2 +1,143 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "unit/demSupport.hpp"
+
 #include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace flotsam;
+using namespace demTest;
+
+namespace
+{
+
+struct Totals
+{
+    Vec3 bodies = Vec3::Zero(), walls = Vec3::Zero(), bodyMoments = Vec3::Zero(), wallMoments = Vec3::Zero();
+};
+
+Totals totals(const LiggghtsEngine& engine)
+{
+    Totals t;
+    const auto contact = engine.meanContactLoads();
+    const auto states = engine.states();
+    for (size_t b = 0; b < contact.size(); ++b)
+    {
+        t.bodies += contact[b].force;
+        t.bodyMoments += states[b].pose.position.cross(contact[b].force) + contact[b].moment;
+    }
+    for (const Load& load : engine.meanWallLoads())
+    {
+        t.walls += load.force;
+        t.wallMoments += load.moment;
+    }
+    return t;
+}
+
+} // namespace
+
+TEST_CASE("walls feel the opposite of what bodies feel, and bodies gain what they feel")
+{
+    for (const bool hasMeshes : {false, true})
+    {
+        CAPTURE(hasMeshes);
+        const DemSetup setup = heap(6, hasMeshes);
+        LiggghtsEngine engine(setup);
+        const auto loads = weights(setup);
+        engine.setLoads(loads);
+        double worstForce = 0, worstBalance = 0, scale = 0;
+        for (int i = 0; i < 200; ++i)
+        {
+            const double duration = 2e-3;
+            const auto before = engine.states();
+            engine.advance(duration);
+            const auto after = engine.states();
+            const auto contact = engine.meanContactLoads();
+            for (size_t b = 0; b < contact.size(); ++b)
+            {
+                const Vec3 gained = setup.bodies[b].mass * (after[b].motion.velocity - before[b].motion.velocity);
+                const Vec3 turned = after[b].angularMomentum - before[b].angularMomentum;
+                worstBalance = std::max(worstBalance, (gained - (contact[b].force + loads[b].force) * duration).norm());
+                worstBalance = std::max(worstBalance, (turned - contact[b].moment * duration).norm());
+            }
+            const Totals t = totals(engine);
+            worstForce = std::max(worstForce, (t.bodies + t.walls).norm());
+            scale = std::max(scale, t.bodies.norm());
+        }
+        CHECK(scale > 1);
+        CHECK(worstForce < 1e-12 * scale);
+        CHECK(worstBalance < 1e-14);
+    }
+}
+
+TEST_CASE("at rest the floor carries the weight and the moment about the origin")
+{
+    for (const bool hasMesh : {false, true})
+    {
+        CAPTURE(hasMesh);
+        DemSetup setup = scene({debris(Vec3(0.07, 0.03, 0.0099999))}, {plane(Vec3::Zero(), Vec3::UnitZ())});
+        if (hasMesh)
+            setup.walls = {block(Vec3(-0.4, -0.4, -0.1), Vec3(0.4, 0.4, 0))};
+        LiggghtsEngine engine(setup);
+        engine.setLoads(weights(setup));
+        for (int i = 0; i < 100; ++i)
+            engine.advance(1e-3);
+        const Load floor = engine.meanWallLoads()[0];
+        const double weight = 0.0472 * gravity;
+        CHECK(floor.force.z() == doctest::Approx(-weight).epsilon(1e-6));
+        CHECK(floor.moment.x() == doctest::Approx(-0.03 * weight).epsilon(1e-4));
+        CHECK(floor.moment.y() == doctest::Approx(0.07 * weight).epsilon(1e-4));
+        const auto contacts = engine.contacts();
+        REQUIRE(contacts.size() == 1);
+        CHECK(contacts[0].body == 0);
+        CHECK(contacts[0].other == -1);
+        CHECK(contacts[0].force.z() == doctest::Approx(weight).epsilon(1e-3));
+        CHECK((contacts[0].point - Vec3(0.07, 0.03, 0)).norm() < 1e-5);
+        CHECK(contacts[0].overlap == doctest::Approx(weight / 1e6).epsilon(0.01)); // the whole face shares K
+    }
+}
+
+TEST_CASE("planes of any direction act alike")
+{
+    std::vector<double> speeds;
+    for (const Vec3& normal : {Vec3(0, 0, 1), Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(1, 2, 3), Vec3(-1, 1, 0)})
+    {
+        const Vec3 n = normal.normalized();
+        DemSetup setup = scene({ball(0.01, 0.05, 0.0101 * n)}, {plane(Vec3::Zero(), 5 * n)});
+        setup.bodies[0].motion.velocity = -0.2 * n;
+        LiggghtsEngine engine(setup);
+        engine.advance(5e-3);
+        speeds.push_back(engine.states()[0].motion.velocity.dot(n));
+        CHECK(engine.states()[0].motion.velocity.cross(n).norm() < 1e-12);
+        CHECK(engine.meanWallLoads()[0].force.dot(n) * 5e-3 == doctest::Approx(-0.05 * (0.2 + speeds.back())).epsilon(1e-9));
+    }
+    for (const double v : speeds)
+        CHECK(v == doctest::Approx(speeds[0]).epsilon(1e-6));
+}
+
+TEST_CASE("pipes: a bar across two of them leans on both")
+{
+    DemSetup setup = scene({debris(Vec3(-0.0208, 0, 0.1))},
+                           {pipe(Vec3(0, -0.05, 0), 0.0109, 0.3, 32), pipe(Vec3(0, 0.05, 0), 0.0109, 0.3, 32)});
+    setup.bodies[0].pose.orientation = Eigen::AngleAxisd(M_PI / 2, Vec3::UnitZ());
+    LiggghtsEngine engine(setup);
+    engine.setLoads({{Vec3(2, 0, 0), Vec3::Zero()}});
+    for (int i = 0; i < 100; ++i)
+        engine.advance(1e-3);
+    const auto walls = engine.meanWallLoads();
+    CHECK(walls[0].force.x() == doctest::Approx(1).epsilon(1e-3));
+    CHECK(walls[1].force.x() == doctest::Approx(1).epsilon(1e-3));
+    CHECK(engine.contacts().size() == 2);
+    CHECK(engine.states()[0].motion.velocity.norm() < 1e-4);
+}
+
+TEST_CASE("a body squeezed evenly between two walls loads both")
+{
+    DemSetup setup = scene({ball(0.01, 0.05, Vec3::Zero())},
+                           {plane(Vec3(0, 0, -0.00999), Vec3::UnitZ()), plane(Vec3(0, 0, 0.00999), -Vec3::UnitZ())});
+    LiggghtsEngine engine(setup);
+    engine.advance(1e-3);
+    CHECK(engine.hasContact());
+    CHECK(engine.meanWallLoads()[0].force.z() == doctest::Approx(-10).epsilon(1e-6));
+    CHECK(engine.meanWallLoads()[1].force.z() == doctest::Approx(10).epsilon(1e-6));
+}

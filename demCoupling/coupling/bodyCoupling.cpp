@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "demCoupling/coupling/bodyCoupling.hpp"
+
+#include <algorithm>
+#include <functional>
+
+namespace flotsam
+{
+
+namespace
+{
+
+constexpr int perBody = 7 + 6 + 3 + 6 + 1; // pose, motion, angular momentum, contact load, contact count
+
+void put(double*& at, const Vec3& v) { for (int d = 0; d < 3; ++d) *at++ = v[d]; }
+void get(const double*& at, Vec3& v) { for (int d = 0; d < 3; ++d) v[d] = *at++; }
+
+void put(double*& at, const BodyState& s)
+{
+    put(at, s.pose.position);
+    const Eigen::Quaterniond& q = s.pose.orientation;
+    for (double c : {q.w(), q.x(), q.y(), q.z()}) *at++ = c;
+    put(at, s.motion.velocity);
+    put(at, s.motion.angularVelocity);
+    put(at, s.angularMomentum);
+}
+
+void get(const double*& at, BodyState& s)
+{
+    get(at, s.pose.position);
+    s.pose.orientation = Eigen::Quaterniond(at[0], at[1], at[2], at[3]);
+    at += 4;
+    get(at, s.motion.velocity);
+    get(at, s.motion.angularVelocity);
+    get(at, s.angularMomentum);
+}
+
+} // namespace
+
+BodyCoupling::BodyCoupling(const DemSetup& setup, const CouplingControls& controls, MPI_Comm comm)
+:   setup_(setup), controls_(controls), comm_(comm)
+{
+    MPI_Comm_rank(comm, &rank_);
+    const std::size_t n = setup.bodies.size();
+    lastLoads_.resize(n);
+    contact_.resize(n);
+    newContact_.resize(n);
+    wallLoads_.resize(setup.walls.size());
+    contactCounts_.assign(n, 0);
+    isHeld_.assign(n, 0);
+    states_.resize(n);
+    result_.resize(n);
+    guarded([&]
+    {
+        engine_ = std::make_unique<LiggghtsEngine>(setup_);
+        demTimeStep_ = engine_->timeStep();
+        result_ = engine_->states();
+    });
+    MPI_Bcast(&demTimeStep_, 1, MPI_DOUBLE, 0, comm_);
+    shareResults();
+    states_ = predicted_ = result_;
+}
+
+BodyCoupling::~BodyCoupling() = default;
+
+/// Runs `work` on rank 0; an error there ends on every rank in the same exception.
+void BodyCoupling::guarded(const std::function<void()>& work) const
+{
+    std::string message;
+    if (rank_ == 0)
+    {
+        try { work(); }
+        catch (const std::exception& error) { message = error.what(); if (message.empty()) message = "unknown DEM error"; }
+    }
+    int length = int(message.size());
+    MPI_Bcast(&length, 1, MPI_INT, 0, comm_);
+    if (length == 0) return;
+    message.resize(length);
+    MPI_Bcast(&message[0], length, MPI_CHAR, 0, comm_);
+    throw std::runtime_error("DEM: " + message);
+}
+
+void BodyCoupling::shareResults()
+{
+    const int n = nBodies(), walls = nWalls();
+    std::vector<double> buffer(std::size_t(n)*perBody + 3*walls + 1);
+    if (rank_ == 0)
+    {
+        double* at = buffer.data();
+        for (int b = 0; b < n; ++b)
+        {
+            put(at, result_[b]);
+            put(at, newContact_[b].force);
+            put(at, newContact_[b].moment);
+            *at++ = contactCounts_[b];
+        }
+        for (const Load& w : wallLoads_) put(at, w.force);
+        *at = largestOverlap_;
+    }
+    MPI_Bcast(buffer.data(), int(buffer.size()), MPI_DOUBLE, 0, comm_);
+    const double* at = buffer.data();
+    for (int b = 0; b < n; ++b)
+    {
+        get(at, result_[b]);
+        get(at, newContact_[b].force);
+        get(at, newContact_[b].moment);
+        contactCounts_[b] = int(*at++);
+    }
+    for (Load& w : wallLoads_) get(at, w.force);
+    largestOverlap_ = *at;
+}
+
+void BodyCoupling::runEngine(double duration, const std::vector<Load>& loads)
+{
+    guarded([&]
+    {
+        engine_->setLoads(loads);
+        engine_->advance(duration);
+        result_ = engine_->states();
+        newContact_ = engine_->meanContactLoads();
+        wallLoads_ = engine_->meanWallLoads();
+        std::fill(contactCounts_.begin(), contactCounts_.end(), 0);
+        largestOverlap_ = 0;
+        for (const Contact& c : engine_->contacts())
+        {
+            ++contactCounts_[c.body];
+            if (c.other >= 0) ++contactCounts_[c.other];
+            largestOverlap_ = std::max(largestOverlap_, c.overlap);
+        }
+        if (!engine_->hasContact()) newContact_.assign(newContact_.size(), Load()); // round-off of a free flight
+    });
+    shareResults();
+}
+
+void BodyCoupling::begin(double time, double dt)
+{
+    dt_ = dt;
+    repeats_ = 0;
+    anderson_.reset();
+    std::vector<char> held(isHeld_);
+    for (int b = 0; b < nBodies(); ++b) held[b] = time < setup_.bodies[b].releaseTime - 1e-9;
+    isHeld_ = held;
+    guarded([&]
+    {
+        saved_ = engine_->save();
+        engine_->setHeld(isHeld_);
+    });
+    runEngine(dt, lastLoads_);
+    predicted_ = result_;
+    contact_ = newContact_;
+}
+
+/// Contact loads as the velocity changes they make in one step [m/s].
+Eigen::VectorXd BodyCoupling::scaled(const std::vector<Load>& loads) const
+{
+    Eigen::VectorXd v(6*loads.size());
+    for (std::size_t b = 0; b < loads.size(); ++b)
+    {
+        const BodyDefinition& body = setup_.bodies[b];
+        const double radius = std::sqrt(body.principalInertia.maxCoeff()/body.mass);
+        v.segment<3>(6*b) = loads[b].force*(dt_/body.mass);
+        v.segment<3>(6*b + 3) = loads[b].moment*(dt_/(body.mass*radius));
+    }
+    return v;
+}
+
+std::vector<Load> BodyCoupling::unscaled(const Eigen::VectorXd& values) const
+{
+    std::vector<Load> loads(setup_.bodies.size());
+    for (std::size_t b = 0; b < loads.size(); ++b)
+    {
+        const BodyDefinition& body = setup_.bodies[b];
+        const double radius = std::sqrt(body.principalInertia.maxCoeff()/body.mass);
+        loads[b].force = values.segment<3>(6*b)*(body.mass/dt_);
+        loads[b].moment = values.segment<3>(6*b + 3)*(body.mass*radius/dt_);
+    }
+    return loads;
+}
+
+bool BodyCoupling::correct(const std::vector<Load>& loads)
+{
+    loads_ = loads;
+    guarded([&] { engine_->restore(saved_); });
+    runEngine(dt_, loads_);
+    const Eigen::VectorXd used = scaled(contact_), found = scaled(newContact_);
+    if (found.size() == 0) return true;
+    const double change = (found - used).cwiseAbs().maxCoeff();
+    const double scale = found.cwiseAbs().maxCoeff() + controls_.gravity*dt_;
+    mismatch_ = scale > 0 ? change/scale : 0;
+    if (mismatch_ <= controls_.tolerance || repeats_ >= controls_.maxRepeats) return true;
+    ++repeats_;
+    contact_ = unscaled(anderson_.next(used, found));
+    return false;
+}
+
+void BodyCoupling::accept()
+{
+    states_ = result_;
+    contact_ = newContact_;
+    lastLoads_ = loads_;
+}
+
+void BodyCoupling::reject()
+{
+    guarded([&] { engine_->restore(saved_); });
+}
+
+std::vector<double> BodyCoupling::save() const
+{
+    std::vector<double> data;
+    guarded([&] { data = engine_->save().data; });
+    unsigned long size = data.size();
+    MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG, 0, comm_);
+    data.resize(size);
+    MPI_Bcast(data.data(), int(size), MPI_DOUBLE, 0, comm_);
+    for (const Load& l : lastLoads_)
+        for (const Vec3* v : {&l.force, &l.moment}) data.insert(data.end(), v->data(), v->data() + 3);
+    return data;
+}
+
+void BodyCoupling::restore(const std::vector<double>& data)
+{
+    const std::size_t tail = 6*setup_.bodies.size();
+    if (data.size() < tail) throw std::runtime_error("restart: the stored state of the bodies is too short for this case");
+    const double* at = data.data() + data.size() - tail;
+    for (Load& l : lastLoads_) { get(at, l.force); get(at, l.moment); }
+    guarded([&]
+    {
+        engine_->restore(DemState{std::vector<double>(data.begin(), data.end() - std::ptrdiff_t(tail))});
+        result_ = engine_->states();
+        newContact_.assign(newContact_.size(), Load());
+    });
+    shareResults();
+    states_ = predicted_ = result_;
+}
+
+} // namespace flotsam

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "demCoupling/coupling/coupledStep.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flotsam
+{
+
+namespace
+{
+
+constexpr double poorResidual = 100;    // times the tolerance: a solve that ends above fails the step
+
+CouplingControls couplingControls(const FluidProperties& fluid, const NumericsControls& n)
+{
+    CouplingControls c;
+    c.tolerance = n.contactTolerance;
+    c.maxRepeats = n.maxContactRepeats;
+    c.gravity = Vec3(fluid.gravity[0], fluid.gravity[1], fluid.gravity[2]).norm();
+    return c;
+}
+
+} // namespace
+
+CoupledStep::CoupledStep(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& fluid, const NumericsControls& controls,
+    const std::vector<BoundaryPatch>& patches, Scene scene, const DemSetup* dem, PhaseTimers& timers)
+:   mesh_(mesh), halo_(halo), controls_(controls), timers_(timers), fluid_(mesh, halo, fluid, controls, patches),
+    builder_(mesh, fluid_.graph(), halo), scene_(std::move(scene))
+{
+    if (dem) coupling_ = std::make_unique<BodyCoupling>(*dem, couplingControls(fluid, controls), halo.comm());
+}
+
+void CoupledStep::cut(bool hasChanged)
+{
+    if (scene_.isEmpty()) return;
+    PhaseTimer t(timers_, Phase::Cut);
+    const Cover& cover = builder_.buildExactVolume(scene_.solids());
+    fluid_.setGeometry(&cover, &scene_.solids(), hasChanged);
+}
+
+void CoupledStep::start(FlowState state, bool isSharp)
+{
+    const double time = state.time;
+    fluid_.start(std::move(state), isSharp);
+    scene_.place(time, coupling_.get());
+    for (int k = 0; k < 3; ++k) cut(k == 2); // the volume correction takes a few passes from nothing
+    wet_ = fluid_.wetFractions();
+    loads_.assign(scene_.solids().size(), {Vec3::Zero(), Vec3::Zero()});
+}
+
+StepResult CoupledStep::step(double dt)
+{
+    StepResult result;
+    const std::vector<double> sceneBefore = scene_.save();
+    const double time = fluid_.state().time;
+    if (coupling_)
+    {
+        PhaseTimer t(timers_, Phase::Dem);
+        coupling_->begin(time, dt);
+    }
+    try
+    {
+        PhaseTimer t(timers_, Phase::PhaseField);
+        result.transport = fluid_.beginStep(dt);
+    }
+    catch (const std::runtime_error& error) { result.failure = error.what(); } // on every rank alike
+    if (result.failure.empty())
+    {
+        scene_.place(time + dt, coupling_.get());
+        if (scene_.moves()) cut(true);
+        {
+            PhaseTimer t(timers_, Phase::FlowAssembly);
+            fluid_.assemble();
+        }
+        solveWithContact(result);
+    }
+    if (!result.failure.empty())
+    {
+        fluid_.rejectStep();
+        if (coupling_) coupling_->reject();
+        scene_.restore(sceneBefore);
+        if (scene_.moves()) cut(true);
+        return result;
+    }
+    PhaseTimer t(timers_, Phase::FlowAssembly);
+    fluid_.endStep();
+    if (coupling_) coupling_->accept();
+    wet_ = fluid_.wetFractions();
+    result.isAccepted = true;
+    return result;
+}
+
+void CoupledStep::solveWithContact(StepResult& result)
+{
+    for (;;)
+    {
+        SolveReport report;
+        {
+            PhaseTimer t(timers_, Phase::FlowSolve);
+            report = fluid_.solve(coupling_ ? scene_.freeBodies(*coupling_) : std::vector<FreeBody>());
+        }
+        ++result.solves;
+        result.linearIterations += report.iterations;
+        result.hasConverged = result.hasConverged && report.hasConverged;
+        if (!fluid_.isFinite()) result.failure = "the solution is not a number";
+        else if (!report.hasConverged && !(report.final < poorResidual*controls_.tolerance))
+            result.failure = "the linear solver did not converge";
+        if (!result.failure.empty()) return;
+        if (scene_.isEmpty()) return;
+        {
+            PhaseTimer t(timers_, Phase::Exchange);
+            loads_ = fluid_.solidLoads();
+        }
+        if (!coupling_) return;
+        PhaseTimer t(timers_, Phase::Dem);
+        if (coupling_->correct(scene_.bodyLoads(loads_))) break;
+    }
+    result.contactMismatch = coupling_->mismatch();
+}
+
+double CoupledStep::bodyCourantRate() const
+{
+    const double speed = scene_.largestSpeed();
+    if (speed == 0) return 0;
+    double h = 1e300;
+    for (const CutElement& c : builder_.cover().cuts) h = std::min(h, mesh_.h[c.element]);
+    h = halo_.min(h);
+    return h < 1e300 ? speed/h : 0;
+}
+
+int CoupledStep::bodiesInContact() const
+{
+    if (!coupling_) return 0;
+    return int(std::count_if(coupling_->contactCounts().begin(), coupling_->contactCounts().end(), [](int n) { return n > 0; }));
+}
+
+std::vector<BodyRecord> CoupledStep::records() const
+{
+    std::vector<BodyRecord> records(scene_.solids().size());
+    for (std::size_t s = 0; s < records.size(); ++s)
+    {
+        const Solid& solid = scene_.solids()[s];
+        BodyRecord& r = records[s];
+        r.pose = solid.pose;
+        r.motion = solid.motion;
+        r.fluidForce = loads_[s].force;
+        r.fluidMoment = loads_[s].moment;
+        r.wetFraction = wet_[s];
+        const int body = int(s) - scene_.nStructures();
+        if (!coupling_) continue;
+        if (body < 0)
+        {
+            const int wall = scene_.wallOf(int(s));
+            if (wall >= 0) r.contactForce = coupling_->wallLoads()[wall].force;
+            continue;
+        }
+        r.pose = coupling_->states()[body].pose;
+        r.motion = coupling_->states()[body].motion;
+        r.contactForce = coupling_->contactLoads()[body].force;
+        r.contactMoment = coupling_->contactLoads()[body].moment;
+        r.contacts = coupling_->contactCounts()[body];
+    }
+    return records;
+}
+
+std::map<std::string, std::vector<double>> CoupledStep::save() const
+{
+    std::map<std::string, std::vector<double>> arrays;
+    arrays["liquid"] = {fluid_.keptLiquid()};
+    if (scene_.isEmpty()) return arrays;
+    arrays["solids"] = scene_.save();
+    std::vector<double> loads;
+    for (const auto& l : loads_)
+        for (const Vec3* v : {&l.force, &l.moment}) loads.insert(loads.end(), v->data(), v->data() + 3);
+    arrays["fluidLoads"] = loads;
+    if (coupling_) arrays["bodies"] = coupling_->save();
+    return arrays;
+}
+
+void CoupledStep::restore(FlowState state, const std::map<std::string, std::vector<double>>& arrays)
+{
+    fluid_.start(std::move(state), false);
+    auto array = [&](const char* name) -> const std::vector<double>&
+    {
+        const auto at = arrays.find(name);
+        if (at == arrays.end()) throw std::runtime_error(std::string("restart: the stored state has no '") + name
+            + "'; it was written by a run without solids or bodies");
+        return at->second;
+    };
+    fluid_.setKeptLiquid(array("liquid").at(0));
+    if (scene_.isEmpty()) return;
+    scene_.restore(array("solids"));
+    const std::vector<double>& loads = array("fluidLoads");
+    loads_.assign(scene_.solids().size(), {Vec3::Zero(), Vec3::Zero()});
+    for (std::size_t s = 0; s < loads_.size() && 6*s + 5 < loads.size(); ++s)
+        for (int d = 0; d < 3; ++d) { loads_[s].force[d] = loads[6*s + d]; loads_[s].moment[d] = loads[6*s + 3 + d]; }
+    if (coupling_) coupling_->restore(array("bodies"));
+    // the geometry of the stored state exactly: same poses and offsets, no further volume correction
+    const Cover& cover = builder_.build(scene_.solids());
+    fluid_.setGeometry(&cover, &scene_.solids(), false);
+    wet_ = fluid_.wetFractions();
+}
+
+} // namespace flotsam

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// One time step of everything: flow, free surface, cut geometry, bodies, contact. No OpenFOAM, no files: the application and the
+/// tests drive the same object.
+#pragma once
+
+#include "demCoupling/coupling/scene.hpp"
+#include "equations/fluid.hpp"
+#include "geometry/coverBuilder.hpp"
+#include "io/bodyHistory.hpp"
+#include "io/runLog.hpp"
+
+#include <map>
+#include <memory>
+
+namespace flotsam
+{
+
+struct StepResult
+{
+    bool isAccepted = false;
+    std::string failure;        ///< why not
+    TransportReport transport;
+    int linearIterations = 0;   ///< of all solves of the step
+    int solves = 0;             ///< 1 + contact repeats
+    bool hasConverged = true;   ///< linear solver, all solves
+    double contactMismatch = 0;
+};
+
+class CoupledStep
+{
+public:
+    /// dem: null when there are no bodies (LIGGGHTS is then never opened). References must outlive this.
+    CoupledStep(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& fluid, const NumericsControls& controls,
+        const std::vector<BoundaryPatch>& patches, Scene scene, const DemSetup* dem, PhaseTimers& timers);
+
+    /// Start fields; cuts the mesh. isSharp: the phase field is turned into its equilibrium profile.
+    void start(FlowState state, bool isSharp);
+
+    /// Advances by dt, or leaves everything as it was (isAccepted false).
+    StepResult step(double dt);
+
+    Fluid& fluid() { return fluid_; }
+    const Fluid& fluid() const { return fluid_; }
+    const Scene& scene() const { return scene_; }
+    const BodyCoupling* coupling() const { return coupling_.get(); }
+    const Cover* cover() const { return scene_.isEmpty() ? nullptr : &builder_.cover(); }
+
+    /// Largest surface speed of the solids over the smallest cut element [1/s]; 0 without moving solids. Collective.
+    double bodyCourantRate() const;
+    int bodiesInContact() const;
+
+    /// State and loads of the solids at the present time, structures first.
+    std::vector<BodyRecord> records() const;
+
+    /// Arrays for a checkpoint beside the FlowState. Collective.
+    std::map<std::string, std::vector<double>> save() const;
+    void restore(FlowState state, const std::map<std::string, std::vector<double>>& arrays);
+
+private:
+    void cut(bool hasChanged);
+    void solveWithContact(StepResult& result);
+
+    const SimplexMesh& mesh_;
+    const Halo& halo_;
+    NumericsControls controls_;
+    PhaseTimers& timers_;
+    Fluid fluid_;
+    CoverBuilder builder_;
+    Scene scene_;
+    std::unique_ptr<BodyCoupling> coupling_;
+    std::vector<Fluid::SolidLoad> loads_;   // fluid loads of the last solve
+    std::vector<double> wet_;
+};
+
+} // namespace flotsam

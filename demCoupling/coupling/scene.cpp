@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "demCoupling/coupling/scene.hpp"
+
+#include <algorithm>
+
+namespace flotsam
+{
+
+Scene::Scene(std::vector<SceneStructure> structures, const std::vector<BodyDefinition>& bodies, const Vec3& gravity)
+:   structures_(std::move(structures)), bodies_(bodies), gravity_(gravity)
+{
+    for (const SceneStructure& s : structures_)
+    {
+        solids_.push_back(s.solid);
+        if (s.motion) isMoving_ = true;
+    }
+    for (const BodyDefinition& body : bodies_)
+    {
+        Solid solid;
+        solid.name = body.name;
+        solid.kind = Solid::Kind::Free;
+        solid.shape = body.shape;
+        solid.pose = body.pose;
+        solid.motion = body.motion;
+        solids_.push_back(solid);
+    }
+    for (const Solid& s : solids_)
+    {
+        double radius = 0;
+        const std::array<Vec3, 2> bounds = s.shape->bounds();
+        for (int corner = 0; corner < 8; ++corner)
+            radius = std::max(radius, Vec3(bounds[corner & 1][0], bounds[corner >> 1 & 1][1], bounds[corner >> 2][2]).norm());
+        radius_.push_back(radius);
+    }
+}
+
+void Scene::place(double time, const BodyCoupling* coupling)
+{
+    for (std::size_t s = 0; s < structures_.size(); ++s)
+        if (structures_[s].motion) structures_[s].motion(time, solids_[s].pose, solids_[s].motion);
+    for (std::size_t b = 0; coupling && b < bodies_.size(); ++b)
+    {
+        Solid& solid = solids_[structures_.size() + b];
+        const BodyState& state = coupling->predicted()[b];
+        // a held body is an obstacle at rest
+        solid.kind = coupling->isHeld(int(b)) ? Solid::Kind::Prescribed : Solid::Kind::Free;
+        solid.pose = state.pose;
+        solid.motion = coupling->isHeld(int(b)) ? Motion() : state.motion;
+    }
+}
+
+std::vector<FreeBody> Scene::freeBodies(const BodyCoupling& coupling) const
+{
+    std::vector<FreeBody> result;
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+    {
+        if (coupling.isHeld(int(b))) continue;
+        const BodyDefinition& definition = bodies_[b];
+        const Eigen::Matrix3d R = solids_[structures_.size() + b].pose.orientation.toRotationMatrix();
+        FreeBody body;
+        body.mass = definition.mass;
+        body.inertia = R*definition.principalInertia.asDiagonal()*R.transpose();
+        body.velocity = coupling.states()[b].motion.velocity;
+        body.angularMomentum = coupling.states()[b].angularMomentum;
+        body.force = definition.mass*gravity_ + coupling.contactLoads()[b].force;
+        body.moment = coupling.contactLoads()[b].moment;
+        result.push_back(body);
+    }
+    return result;
+}
+
+double Scene::largestSpeed() const
+{
+    double speed = 0;
+    for (std::size_t s = 0; s < solids_.size(); ++s)
+        if (solids_[s].kind != Solid::Kind::Fixed)
+            speed = std::max(speed, solids_[s].motion.velocity.norm() + radius_[s]*solids_[s].motion.angularVelocity.norm());
+    return speed;
+}
+
+std::vector<double> Scene::save() const
+{
+    std::vector<double> data;
+    for (const Solid& s : solids_)
+    {
+        data.insert(data.end(), s.pose.position.data(), s.pose.position.data() + 3);
+        const double* q = s.pose.orientation.coeffs().data();
+        data.insert(data.end(), q, q + 4);
+        data.insert(data.end(), s.motion.velocity.data(), s.motion.velocity.data() + 3);
+        data.insert(data.end(), s.motion.angularVelocity.data(), s.motion.angularVelocity.data() + 3);
+        data.push_back(s.offset);
+        data.push_back(double(s.kind));
+    }
+    return data;
+}
+
+void Scene::restore(const std::vector<double>& data)
+{
+    constexpr std::size_t width = 15;
+    if (data.size() != width*solids_.size())
+        throw std::runtime_error("restart: the stored state has " + std::to_string(data.size()/width)
+            + " solids, the case has " + std::to_string(solids_.size()) + "; restart with the constant/bodies of the first run");
+    const double* at = data.data();
+    for (Solid& s : solids_)
+    {
+        s.pose.position = Vec3(at[0], at[1], at[2]);
+        std::copy(at + 3, at + 7, s.pose.orientation.coeffs().data());
+        s.motion.velocity = Vec3(at[7], at[8], at[9]);
+        s.motion.angularVelocity = Vec3(at[10], at[11], at[12]);
+        s.offset = at[13];
+        s.kind = Solid::Kind(int(at[14]));
+        at += width;
+    }
+}
+
+} // namespace flotsam

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The solids of a run in one list (structures, then bodies), as the fluid sees them, and the way from body states to solids and
+/// from fluid loads to bodies.
+#pragma once
+
+#include "demCoupling/coupling/bodyCoupling.hpp"
+#include "equations/flowEquation.hpp"
+
+#include <functional>
+
+namespace flotsam
+{
+
+/// One structure member of the scene.
+struct SceneStructure
+{
+    Solid solid;
+    int wall = -1;      ///< its DEM wall, -1: bodies do not feel it
+    std::function<void(double time, Pose&, Motion&)> motion; ///< empty: fixed
+};
+
+class Scene
+{
+public:
+    Scene(std::vector<SceneStructure> structures, const std::vector<BodyDefinition>& bodies, const Vec3& gravity);
+
+    std::vector<Solid>& solids() { return solids_; }
+    const std::vector<Solid>& solids() const { return solids_; }
+    int nStructures() const { return int(structures_.size()); }
+    int nBodies() const { return int(bodies_.size()); }
+    int wallOf(int structure) const { return structures_[structure].wall; }
+    bool isEmpty() const { return solids_.empty(); }
+    bool moves() const { return isMoving_ || nBodies() > 0; }
+
+    /// Prescribed structures at `time`; bodies as `coupling` predicts them (null: no bodies).
+    void place(double time, const BodyCoupling* coupling);
+
+    /// The free bodies' part of the linear system: states at t^n, weight and contact loads, inertia in the placed orientation.
+    std::vector<FreeBody> freeBodies(const BodyCoupling& coupling) const;
+
+    /// Fluid force and moment of every body plus its weight: the constant load of the DEM sub-steps.
+    template<class FluidLoad>
+    std::vector<Load> bodyLoads(const std::vector<FluidLoad>& fluid) const
+    {
+        std::vector<Load> loads(bodies_.size());
+        for (std::size_t b = 0; b < bodies_.size(); ++b)
+        {
+            loads[b].force = fluid[structures_.size() + b].force + bodies_[b].mass*gravity_;
+            loads[b].moment = fluid[structures_.size() + b].moment;
+        }
+        return loads;
+    }
+
+    /// Largest surface speed of the moving solids [m/s].
+    double largestSpeed() const;
+
+    /// Poses, motions and offsets of all solids as numbers, and back (checkpoint).
+    std::vector<double> save() const;
+    void restore(const std::vector<double>& data);
+
+private:
+    std::vector<SceneStructure> structures_;
+    std::vector<BodyDefinition> bodies_;
+    std::vector<double> radius_;    // per solid: of the sphere around its origin that holds it [m]
+    std::vector<Solid> solids_;
+    Vec3 gravity_;
+    bool isMoving_ = false;
+};
+
+} // namespace flotsam

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "demCoupling/foam/runOutput.H"
+
+#include "OSspecific.H"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flotsam
+{
+
+namespace
+{
+
+constexpr double bodyFacet = 0.25;  // facet size of curved bodies over their largest extent, for the animated surface
+
+double facetSize(const Shape& shape)
+{
+    const std::array<Vec3, 2> b = shape.bounds();
+    return bodyFacet*(b[1] - b[0]).maxCoeff();
+}
+
+std::vector<HistoryMember> makeMembers(const BodiesInput& input)
+{
+    std::vector<HistoryMember> members;
+    for (const StructureDefinition& s : input.structures)
+        members.push_back({s.solid.name, true, 0, s.solid.shape->moments().volume, s.solid.shape->surface(s.facetSize)});
+    for (const BodyDefinition& b : input.bodies)
+        members.push_back({b.name, false, b.mass, b.volume, b.shape->surface(facetSize(*b.shape))});
+    return members;
+}
+
+std::vector<std::string> structureNames(const BodiesInput& input)
+{
+    std::vector<std::string> names;
+    for (const StructureDefinition& s : input.structures) names.push_back(s.solid.name);
+    return names;
+}
+
+} // namespace
+
+RunOutput::RunOutput(const Foam::Time& runTime, const SimplexMesh& mesh, const Halo& halo, const BodiesInput& bodies,
+    const PhaseTimers& timers)
+:   runTime_(runTime), mesh_(mesh), halo_(halo), timers_(timers), members_(makeMembers(bodies)),
+    log_(timers, runTime.value(), runTime.endTime().value()), forces_(structureNames(bodies)),
+    nStructures_(int(bodies.structures.size()))
+{}
+
+Foam::fileName RunOutput::stateFile() const { return runTime_.timePath()/"flotsamState.h5"; }
+
+bool RunOutput::readState(CoupledStep& step)
+{
+    const bool isHere = Foam::isFile(stateFile());
+    if (!halo_.any(isHere)) return false;
+    if (halo_.any(!isHere))
+        throw std::runtime_error("restart: flotsamState.h5 is missing on some ranks at time " + runTime_.timeName()
+            + "; continue on the number of ranks that wrote it");
+    RunState state = readCheckpoint(stateFile(), std::size_t(mesh_.nNodes));
+    mass_ = {state.scalars["initialLiquid"], state.scalars["inflow"], state.scalars["outflow"], 0};
+    steps_ = long(state.scalars["steps"]);
+    redistributed_ = state.scalars["redistributed"];
+    forces_.restore(state.arrays["forces"]);
+    step.restore(std::move(state.flow), state.arrays);
+    Foam::Info<< "continuing the stored state of time " << runTime_.timeName() << Foam::endl;
+    return true;
+}
+
+void RunOutput::begin(const CoupledStep& step)
+{
+    mass_.final = step.fluid().liquidVolume();
+    if (mass_.initial == 0) mass_.initial = mass_.final;
+    if (halo_.rank() == 0)
+    {
+        const Foam::fileName folder = runTime_.globalPath()/"postProcessing"/"flotsam";
+        Foam::mkDir(folder);
+        history_ = std::make_unique<BodyHistory>(folder/"bodies.h5", members_, runTime_.value());
+        history_->append(runTime_.value(), step.records(), scalars(0));
+        if (!members_.empty()) history_->writeSurface(runTime_.value(), step.records());
+    }
+}
+
+double RunOutput::massError() const { return mass_.initial > 0 ? mass_.error()/mass_.initial : 0; }
+
+std::vector<std::pair<std::string, double>> RunOutput::scalars(double dt) const
+{
+    return {{"dt", dt}, {"liquidVolume", mass_.final}, {"inflow", mass_.inflow}, {"outflow", mass_.outflow},
+        {"massError", massError()}, {"redistributed", redistributed_}, {"largestOverlap", largestOverlap_}};
+}
+
+void RunOutput::record(const CoupledStep& step, const StepResult& result, const std::string& limit)
+{
+    ++steps_;
+    mass_.inflow += mesh_.thickness*result.transport.inflow;
+    mass_.outflow += mesh_.thickness*result.transport.outflow;
+    mass_.final = step.fluid().liquidVolume();
+    redistributed_ += mesh_.thickness*std::abs(result.transport.redistributed);
+    limitedFaces_ += result.transport.nLimited;
+    if (!result.hasConverged) ++notConverged_;
+    if (step.coupling())
+    {
+        if (result.contactMismatch > 0.1) ++unfinishedContacts_;
+        largestOverlap_ = std::max(largestOverlap_, step.coupling()->largestOverlap());
+    }
+    if (step.cover()) sharedElements_ = std::max(sharedElements_, step.cover()->nSharedElements);
+    const std::vector<BodyRecord> records = step.records();
+    for (int s = 0; s < nStructures_; ++s)
+        forces_.add(s, step.fluid().state().dt, records[s].fluidForce.data(), records[s].contactForce.data());
+    if (history_) history_->append(runTime_.value(), records, scalars(step.fluid().state().dt));
+
+    StepReport line;
+    line.step = steps_;
+    line.time = runTime_.value();
+    line.dt = step.fluid().state().dt;
+    line.limit = limit;
+    line.linearIterations = result.linearIterations;
+    line.contactRepeats = result.solves - 1;
+    line.massError = massError();
+    line.bodiesInContact = step.bodiesInContact();
+    const std::string text = log_.stepLine(line);
+    Foam::Info<< text.c_str() << Foam::flush;
+}
+
+void RunOutput::countRejected(const std::string& reason, double dt)
+{
+    ++rejected_;
+    Foam::Info<< "step of " << dt << " s rejected: " << reason.c_str() << "; repeated with half of it" << Foam::endl;
+}
+
+void RunOutput::writeState(const CoupledStep& step)
+{
+    RunState state;
+    state.flow = step.fluid().state();
+    state.arrays = step.save();
+    state.arrays["forces"] = forces_.values();
+    state.scalars = {{"initialLiquid", mass_.initial}, {"inflow", mass_.inflow}, {"outflow", mass_.outflow},
+        {"steps", double(steps_)}, {"redistributed", redistributed_}};
+    writeCheckpoint(stateFile(), state);
+    if (!history_) return;
+    history_->flush();
+    if (!members_.empty()) history_->writeSurface(runTime_.value(), step.records());
+}
+
+void RunOutput::end(const CoupledStep&)
+{
+    if (history_) history_->flush();
+    RunSummary summary;
+    summary.steps = steps_;
+    summary.repeatedSteps = rejected_;
+    summary.nodes = mesh_.nGlobal;
+    summary.ranks = halo_.size();
+    summary.anomalies = {{"rejected steps", rejected_}, {"non-converged linear solves", notConverged_},
+        {"contacts not converged", unfinishedContacts_}, {"limited faces of the phase field", limitedFaces_},
+        {"elements shared by two solids (largest)", sharedElements_}};
+    summary.mass = mass_;
+    summary.structures = forces_.result();
+    summary.wall = timers_.wall();
+    summary.cpu = timers_.cpu();
+    Foam::Info<< RunLog::summary(summary).c_str() << Foam::endl;
+}
+
+} // namespace flotsam

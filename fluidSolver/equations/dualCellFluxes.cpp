@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The element loops of the dual-cell transport: volume fluxes, face values, model flux.
+#include "equations/dualCellTransport.hpp"
+
+#include <cmath>
+
+namespace flotsam
+{
+
+namespace
+{
+
+template<int dim>
+double dot(const double* a, const double* b)
+{
+    double s = a[0]*b[0] + a[1]*b[1];
+    if constexpr (dim == 3)
+    {
+        s += a[2]*b[2];
+    }
+    return s;
+}
+
+/// What the dual faces of one element share.
+template<int dim>
+struct FaceGeometry
+{
+    static constexpr int n = dim + 1;
+    static constexpr DualFaceWeights weights = DualFaceWeights::of(dim);
+    const double* x[n];
+    const double* u[n];
+    double xSum[dim] = {}, uSum[dim] = {};
+
+    FaceGeometry(const SimplexMesh& mesh, const std::vector<double>& velocity, const int* nodes)
+    {
+        for (int a = 0; a < n; ++a)
+        {
+            x[a] = &mesh.x[std::size_t(nodes[a])*dim];
+            u[a] = &velocity[std::size_t(nodes[a])*dim];
+            for (int d = 0; d < dim; ++d)
+            {
+                xSum[d] += x[a][d];
+                uSum[d] += u[a][d];
+            }
+        }
+    }
+
+    static double atFace(double sum, double a, double b) { return weights.far*sum + (weights.near - weights.far)*(a + b); }
+
+    /// Centroid of the dual face (a, b) relative to corner `from`, and the velocity there.
+    void evaluate(int a, int b, int from, double* offset, double* velocity) const
+    {
+        for (int d = 0; d < dim; ++d)
+        {
+            offset[d] = atFace(xSum[d], x[a][d], x[b][d]) - x[from][d];
+            velocity[d] = atFace(uSum[d], u[a][d], u[b][d]);
+        }
+    }
+};
+
+} // namespace
+
+template<int dim>
+void DualCellTransport::storeVolumeFluxes(const Arguments& in)
+{
+    using Pairs = CornerPairs<dim>;
+    flux_.resize(nInnerActive_*Pairs::count);
+    for (std::size_t k = 0; k < nInnerActive_; ++k)
+    {
+        const int e = activeElements_[k];
+        const int* nodes = &mesh_.elements[std::size_t(e)*(dim + 1)];
+        double* flux = &flux_[k*Pairs::count];
+        volumeFlux_.ofElement<dim>(e, in.u, in.fineScale, in.cover, flux);
+        for (int p = 0; p < Pairs::count; ++p)
+        {
+            const int a = nodes[Pairs::first[p]], b = nodes[Pairs::second[p]];
+            const int from = flux[p] > 0 ? a : b, to = flux[p] > 0 ? b : a;
+            const double size = std::abs(flux[p]);
+            inflowSum_[to] += size;
+            gain_[to] += size*(in.alpha[from] - in.alpha[to]);
+        }
+    }
+    for (const PairFlux& pair : in.pairFlux)
+    {
+        const int from = pair.flux > 0 ? pair.a : pair.b, to = pair.flux > 0 ? pair.b : pair.a;
+        inflowSum_[to] += std::abs(pair.flux);
+        gain_[to] += std::abs(pair.flux)*(in.alpha[from] - in.alpha[to]);
+    }
+}
+
+/// antiFlux_ = F (alpha of the profile at the face - alpha of the upwind cell), from the first corner to the second.
+template<int dim>
+void DualCellTransport::addFaceValues(const Arguments& in, double dt)
+{
+    using Pairs = CornerPairs<dim>;
+    constexpr int n = dim + 1;
+    antiFlux_.resize(flux_.size());
+    for (std::size_t k = 0; k < nInnerActive_; ++k)
+    {
+        const int e = activeElements_[k];
+        const int* nodes = &mesh_.elements[std::size_t(e)*n];
+        const double* flux = &flux_[k*Pairs::count];
+        double* antiFlux = &antiFlux_[k*Pairs::count];
+        const FaceGeometry<dim> geometry(mesh_, in.u, nodes);
+
+        bool hasRoof = false;
+        for (int a = 0; a < n; ++a)
+        {
+            hasRoof = hasRoof || reconstruction_.profile(nodes[a]).kind == NodeProfile::Kind::Roof;
+        }
+        double gradient[dim] = {}, gradientLength = 1e-30;
+        if (hasRoof)
+        {
+            const double* g = &mesh_.gradN[std::size_t(e)*n*dim];
+            for (int a = 0; a < n; ++a)
+            {
+                for (int d = 0; d < dim; ++d)
+                {
+                    gradient[d] += reconstruction_.level(nodes[a])*g[a*dim + d];
+                }
+            }
+            gradientLength += std::sqrt(dot<dim>(gradient, gradient));
+        }
+
+        for (int p = 0; p < Pairs::count; ++p)
+        {
+            const int a = Pairs::first[p], b = Pairs::second[p], upwind = flux[p] > 0 ? a : b;
+            const NodeProfile& profile = reconstruction_.profile(nodes[upwind]);
+            if (profile.kind == NodeProfile::Kind::Tail)
+            {
+                const double own = in.alpha[nodes[upwind]], most = std::min(own, 1 - own);
+                antiFlux[p] = flux[p]*std::clamp(in.alpha[nodes[upwind == a ? b : a]] - own, -most, most);
+                continue;
+            }
+            if (profile.kind == NodeProfile::Kind::Bulk)
+            {
+                antiFlux[p] = 0;
+                continue;
+            }
+            double offset[dim], velocity[dim];
+            geometry.evaluate(a, b, upwind, offset, velocity);
+            double psi, swept;
+            if (profile.kind == NodeProfile::Kind::Front)
+            {
+                psi = profile.value + profile.steepness*dot<dim>(profile.normal, offset);
+                swept = profile.steepness*dt*dot<dim>(profile.normal, velocity);
+            }
+            else
+            {
+                const double scale = std::min(profile.roofFactor, 1/gradientLength)*profile.steepness;
+                psi = profile.value + scale*dot<dim>(gradient, offset);
+                swept = scale*dt*dot<dim>(gradient, velocity);
+            }
+            antiFlux[p] = flux[p]*(sweptMean(psi, swept) - in.alpha[nodes[upwind]]);
+        }
+    }
+}
+
+/// The Allen-Cahn flux gamma delta grad alpha (1 - 1/|grad level|), which vanishes in the equilibrium profile
+/// (ratio form). mobility: gamma [m/s].
+template<int dim>
+void DualCellTransport::addModelFlux(const Arguments& in, double mobility)
+{
+    using Pairs = CornerPairs<dim>;
+    constexpr int n = dim + 1;
+    for (std::size_t k = 0; k < nInnerActive_; ++k)
+    {
+        const int e = activeElements_[k];
+        if (in.cover && in.cover->state[e] != ElementState::Fluid)
+        {
+            continue;
+        }
+        const int* nodes = &mesh_.elements[std::size_t(e)*n];
+        const double* g = &mesh_.gradN[std::size_t(e)*n*dim];
+        double slope[dim] = {}, gradient[dim] = {}, width = 0;
+        bool inBand = false;
+        for (int a = 0; a < n; ++a)
+        {
+            const int i = nodes[a];
+            inBand = inBand || reconstruction_.profile(i).kind != NodeProfile::Kind::Bulk;
+            width += width_[i]/n;
+            for (int d = 0; d < dim; ++d)
+            {
+                slope[d] += in.alpha[i]*g[a*dim + d];
+                gradient[d] += reconstruction_.level(i)*g[a*dim + d];
+            }
+        }
+        const double length = std::sqrt(dot<dim>(gradient, gradient));
+        if (!inBand || length <= 0)
+        {
+            continue;
+        }
+        const double factor = mobility*width*(1 - std::min(2., 1/length))*mesh_.volume[e]/n;
+        for (int p = 0; p < Pairs::count; ++p)
+        {
+            antiFlux_[k*Pairs::count + p] -= factor*(dot<dim>(slope, g + Pairs::second[p]*dim) - dot<dim>(slope, g + Pairs::first[p]*dim));
+        }
+    }
+}
+
+template void DualCellTransport::storeVolumeFluxes<2>(const Arguments&);
+template void DualCellTransport::addFaceValues<2>(const Arguments&, double);
+template void DualCellTransport::addModelFlux<2>(const Arguments&, double);
+template void DualCellTransport::storeVolumeFluxes<3>(const Arguments&);
+template void DualCellTransport::addFaceValues<3>(const Arguments&, double);
+template void DualCellTransport::addModelFlux<3>(const Arguments&, double);
+
+} // namespace flotsam

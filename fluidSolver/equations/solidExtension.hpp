@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Values of alpha inside solids, for the nodes that come out of a body later and for gradients beside its surface.
+#pragma once
+
+#include "algebra/halo.hpp"
+#include "geometry/cover.hpp"
+
+namespace flotsam
+{
+
+/// Gives the nodes inside solids within `nRings` rings of active nodes the mean of their neighbours nearer to the fluid, ring
+/// by ring; deeper nodes keep what they have. alpha: nNodes, halo up to date before and after. Collective; the result does
+/// not depend on the number of ranks.
+void extendIntoSolids(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const Cover& cover,
+    std::vector<double>& alpha, int nRings = 3);
+
+} // namespace flotsam

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// flotsamFoam: driftwood and debris in a free-surface flow, colliding with structures, piling up and blocking them.
+///
+/// Stabilised P1 finite cover method on fixed meshes, conservative phase field, rigid bodies by LIGGGHTS in process.
+/// This file is the only one that knows the fluid and the bodies: it reads the case, runs the time loop, writes.
+#include "demCoupling/coupling/coupledStep.hpp"
+#include "demCoupling/foam/bodiesReader.H"
+#include "demCoupling/foam/runOutput.H"
+#include "foam/boundaryReader.H"
+#include "foam/caseCheck.H"
+#include "foam/fieldIO.H"
+
+#include "io/stopSignal.hpp"
+
+#include "argList.H"
+#include "fvMesh.H"
+
+#include <cmath>
+
+namespace flotsam
+{
+
+namespace
+{
+
+constexpr double growthLimit = 1.2;     // of the time step from step to step
+constexpr double retryFactor = 0.5;     // of the time step after a rejected step
+constexpr int maxRetries = 8;
+
+/// Next time step and the word for what limits it.
+std::pair<double, std::string> nextTimeStep(const CoupledStep& step, const TimeControls& time, double last)
+{
+    double dt = growthLimit*last;
+    std::string limit = "growth";
+    auto cap = [&](double value, const char* word) { if (value < dt) { dt = value; limit = word; } };
+    if (!time.adjustTimeStep) return {time.deltaT, "fixed"};
+    const double flow = step.fluid().courantRate(), body = step.bodyCourantRate();
+    if (flow > 0) cap(time.maxCo/flow, "flow");
+    if (body > 0) cap(time.maxBodyCo/body, "body");
+    cap(time.maxDeltaT, "cap");
+    return {dt, limit};
+}
+
+SceneCounts countScene(const BodiesInput& input)
+{
+    SceneCounts counts;
+    for (const StructureDefinition& s : input.structures) ++(s.motion ? counts.movingStructures : counts.fixedStructures);
+    counts.bodies = int(input.bodies.size());
+    for (const BodyDefinition& b : input.bodies) counts.demSpheres += long(b.spheres.size());
+    counts.walls = int(input.walls.size());
+    return counts;
+}
+
+Scene makeScene(const BodiesInput& input, const Vec3& gravity)
+{
+    std::vector<SceneStructure> structures;
+    for (const StructureDefinition& s : input.structures) structures.push_back({s.solid, s.wall, s.motion});
+    return Scene(structures, input.bodies, gravity);
+}
+
+DemSetup makeDemSetup(const BodiesInput& input, double timeStep)
+{
+    DemSetup setup;
+    setup.bodies = input.bodies;
+    setup.walls = input.walls;
+    setup.nMaterials = int(input.materials.size());
+    setup.laws = input.laws;
+    setup.box = input.box;
+    setup.timeStep = timeStep;
+    return setup;
+}
+
+/// One step of at most dt, repeated with smaller steps when it fails. Returns the step used and its result.
+StepResult advance(CoupledStep& step, const TimeControls& time, double& dt, RunOutput& output)
+{
+    for (int retry = 0;; ++retry)
+    {
+        const StepResult result = step.step(dt);
+        if (result.isAccepted) return result;
+        output.countRejected(result.failure, dt);
+        dt *= retryFactor;
+        if (retry == maxRetries || dt < time.minDeltaT)
+            throw std::runtime_error("no step could be made from t = " + std::to_string(step.fluid().state().time)
+                + " s: " + result.failure + " down to a step of " + std::to_string(dt/retryFactor) + " s");
+    }
+}
+
+void run(Foam::Time& runTime, const Foam::fvMesh& mesh, bool isDryRun)
+{
+    PetscSession petsc(MPI_COMM_WORLD);
+    const CaseControls controls = readCaseControls(runTime);
+    const MeshAdapter adapter = makeSimplexMesh(mesh, MPI_COMM_WORLD);
+    const Halo halo(adapter.mesh, MPI_COMM_WORLD);
+    const std::vector<BoundaryPatch> boundary = readBoundary(mesh, adapter, halo, controls);
+    FoamFields fields(mesh, adapter, halo, controls);
+    const auto& g = controls.fluid.gravity;
+    const Vec3 gravity(g[0], g[1], g[2]);
+    const BodiesInput bodies = readBodies(mesh, adapter.mesh, halo, gravity);
+    printCaseCheck(controls, adapter, halo, boundary, countScene(bodies));
+    if (isDryRun) return;
+
+    PhaseTimers timers;
+    const DemSetup dem = makeDemSetup(bodies, controls.numerics.demTimeStep);
+    CoupledStep step(adapter.mesh, halo, controls.fluid, controls.numerics, boundary, makeScene(bodies, gravity),
+        bodies.bodies.empty() ? nullptr : &dem, timers);
+    RunOutput output(runTime, adapter.mesh, halo, bodies, timers);
+
+    FlowState start;
+    start.time = runTime.value();
+    if (!output.readState(step))
+    {
+        fields.readStart(start);
+        step.start(std::move(start), true);
+    }
+    output.begin(step);
+    installStopSignals();
+
+    double dt = step.fluid().state().dt > 0 ? step.fluid().state().dt : std::min(runTime.deltaTValue(), controls.time.maxDeltaT)/growthLimit;
+    while (runTime.run())
+    {
+        auto [wanted, limit] = nextTimeStep(step, controls.time, dt);
+        runTime.setDeltaT(wanted);          // OpenFOAM shortens it to meet write times
+        double used = runTime.deltaTValue();
+        if (used < 0.999*wanted) limit = "write";
+        const double before = used;
+        const StepResult result = advance(step, controls.time, used, output);
+        if (used < before) { runTime.setDeltaT(used, false); limit = "retry"; }
+        dt = limit == "write" ? wanted : used;
+        ++runTime;
+        step.fluid().state().time = runTime.value(); // OpenFOAM's clock, to the last digit
+
+        output.record(step, result, limit);
+        const bool isStopping = halo.any(stopRequested());
+        const bool writeNow = halo.any(takeWriteRequest());
+        if (fields.isNeeded() || isStopping || writeNow)
+        {
+            PhaseTimer t(timers, Phase::Output);
+            fields.update(step.fluid().state(), step.cover(), step.scene().solids());
+        }
+        if (isStopping) runTime.writeAndEnd();
+        else if (writeNow) runTime.writeNow();
+        else runTime.write();
+        if (runTime.writeTime() || isStopping || writeNow) output.writeState(step);
+    }
+    output.end(step);
+}
+
+} // namespace
+
+} // namespace flotsam
+
+int main(int argc, char* argv[])
+{
+    Foam::argList::addNote
+    (
+        "Driftwood and debris in a free-surface flow: stabilised P1 finite cover method with LIGGGHTS rigid bodies.\n"
+        "A case is an interFoam case plus constant/bodies."
+    );
+    Foam::argList::addBoolOption("dry-run", "check the whole case, print what will be solved and skipped, memory and time; do not run");
+    Foam::argList args(argc, argv);
+    if (!args.checkRootCase()) Foam::FatalError.exit();
+
+    try
+    {
+        Foam::Time runTime(Foam::Time::controlDictName, args);
+        Foam::fvMesh mesh
+        (
+            Foam::IOobject(Foam::fvMesh::defaultRegion, runTime.timeName(), runTime, Foam::IOobject::MUST_READ)
+        );
+        flotsam::run(runTime, mesh, args.found("dry-run"));
+    }
+    catch (const std::exception& error)
+    {
+        FatalErrorInFunction << error.what() << Foam::exit(Foam::FatalError);
+    }
+    Foam::Info<< "End\n" << Foam::endl;
+    return 0;
+}

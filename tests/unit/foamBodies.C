@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// constant/bodies: shapes, mass and inertia, members, placement, walls, and one message for every mistake.
+#include "demCoupling/foam/bodiesReader.H"
+#include "demCoupling/foam/bodyPlacement.hpp"
+#include "foam/controlsReader.H"
+#include "support/foamCase.H"
+
+#include <doctest/doctest.h>
+
+#include <mpi.h>
+
+#include <cmath>
+#include <fstream>
+
+using namespace flotsam;
+
+namespace
+{
+
+/// 2 m x 1 m x 0.4 m with walls below, in front and behind; y is up. 2D: one layer of 0.1 m.
+struct Scene
+{
+    FoamCase foam;
+    MeshAdapter adapter;
+    Halo halo;
+    explicit Scene(bool is3d = true)
+    :
+        foam("foamChannel", edits(is3d), is3d ? "blockMeshDict3d" : "blockMeshDict"), adapter(makeSimplexMesh(foam.mesh(), MPI_COMM_WORLD)),
+        halo(adapter.mesh, MPI_COMM_WORLD)
+    {}
+    static std::vector<FoamCase::Edit> edits(bool is3d)
+    {
+        if (!is3d) return {};
+        std::vector<FoamCase::Edit> list;
+        for (const char* file : {"0/U", "0/p_rgh", "0/alpha.water"}) list.push_back({file, "frontAndBack { type empty; }", "frontAndBack { type slip; }"});
+        return list;
+    }
+    BodiesInput read(const std::string& contents) { return readBodies(parse(contents), foam.mesh(), adapter.mesh, halo, Vec3(0, -9.81, 0)); }
+    std::string message(const std::string& contents) { return messageOf([&] { read(contents); }); }
+};
+
+bool has(const std::string& s, const std::string& part)
+{
+    const bool found = s.find(part) != std::string::npos;
+    if (!found) MESSAGE("message was: " << s);
+    return found;
+}
+
+const std::string bar = "shape { type box; size (0.2 0.02 0.04); } density 600; ";
+std::string bodies(const std::string& contents) { return "bodies { bar { " + contents + " } }"; }
+
+} // namespace
+
+TEST_CASE("no file: an empty scene")
+{
+    Scene s;
+    const BodiesInput input = readBodies(s.foam.mesh(), s.adapter.mesh, s.halo, Vec3(0, -9.81, 0));
+    CHECK(input.bodies.empty());
+    CHECK(input.structures.empty());
+    CHECK(makeSolids(input).empty());
+}
+
+TEST_CASE("one body: mass, inertia, spheres, pose")
+{
+    Scene s;
+    const BodiesInput input = s.read(bodies(bar + "position (0.5 0.5 0.2); orientation { axis (0 1 0); angleDeg 90; } velocity (1 0 0); releaseTime 2; spheres { radius 0.005; spacing 0.01; }"));
+    REQUIRE(input.bodies.size() == 1);
+    const BodyDefinition& b = input.bodies[0];
+    CHECK(b.name == "bar");
+    CHECK(b.volume == doctest::Approx(0.2*0.02*0.04));
+    CHECK(b.mass == doctest::Approx(600*b.volume));
+    CHECK(b.principalInertia[0] == doctest::Approx(b.mass/12*(0.02*0.02 + 0.04*0.04)));
+    CHECK(b.principalInertia[1] == doctest::Approx(b.mass/12*(0.2*0.2 + 0.04*0.04)));
+    CHECK((b.pose.position - Vec3(0.5, 0.5, 0.2)).norm() < 1e-15);
+    CHECK((b.pose.orientation*Vec3::UnitX() - Vec3(0, 0, -1)).norm() < 1e-14);
+    CHECK(b.motion.velocity == Vec3(1, 0, 0));
+    CHECK(b.releaseTime == 2);
+    CHECK(b.spheres.size() > 100);
+    CHECK_FALSE(b.isPlanar);
+}
+
+TEST_CASE("a shape off its centroid and axes: the geometry stays where the user put it, the body frame is principal")
+{
+    Scene s;
+    const std::string shape = "shape { type cylinder; end1 (0.1 0.2 0.1); end2 (0.3 0.4 0.1); radius 0.03; } mass 2; ";
+    const BodiesInput input = s.read(bodies(shape + "position (0.4 0.1 0); orientation { axis (0 0 1); angleDeg 30; }"));
+    const BodyDefinition& b = input.bodies[0];
+    CHECK(b.mass == 2);
+    const auto moments = b.shape->moments();
+    CHECK(moments.centroid.norm() < 1e-12);
+    CHECK((moments.inertia - Eigen::Matrix3d(moments.inertia.diagonal().asDiagonal())).norm() < 1e-9*moments.inertia.norm());
+    CHECK((b.principalInertia - moments.inertia.diagonal()*(b.mass/moments.volume)).norm() < 1e-9*b.principalInertia.norm());
+    // the user's shape at the user's place
+    const auto user = makeCylinder(Vec3(0.1, 0.2, 0.1), Vec3(0.3, 0.4, 0.1), 0.03);
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(M_PI/6, Vec3::UnitZ()));
+    const Solid solid = makeSolids(input)[0];
+    for (const Vec3& x : {Vec3(0.2, 0.5, 0.1), Vec3(0.5, 0.5, 0.1), Vec3(0.4, 0.37, 0.12), Vec3(1.5, 0.5, 0.3)})
+        CHECK(solid.distance(x) == doctest::Approx(user->distance(turn.conjugate()*(x - Vec3(0.4, 0.1, 0)))));
+}
+
+TEST_CASE("arrays of structures and bodies, and their walls")
+{
+    Scene s;
+    const BodiesInput input = s.read(
+        "materials (wood steel); wallMaterial steel; contact { default { stiffness 5e5; } wood-steel { restitution 0.5; frictionAngle 20; } }"
+        "parameters { gap 0.1; } structures { pipes { shape { type cylinder; end1 (1.5 0 0.05); end2 (1.5 1 0.05); radius 0.01; } material steel; wall slip;"
+        " array { count (1 1 4); spacing (0 0 $:parameters.gap); } } }"
+        + bodies(bar + "material wood; position (0.3 0.3 0.1); array { count (2 3 1); spacing (0.4 0.1 0); }"));
+    REQUIRE(input.structures.size() == 4);
+    CHECK(input.structures[3].solid.name == "pipes.3");
+    CHECK(input.structures[3].solid.distance(Vec3(1.5, 0.5, 0.35)) == doctest::Approx(-0.01));
+    CHECK(input.structures[0].solid.wall == Solid::Wall::Slip);
+    REQUIRE(input.bodies.size() == 6);
+    CHECK(input.bodies[1].name == "bar.1");
+    CHECK((input.bodies[5].pose.position - Vec3(0.7, 0.5, 0.1)).norm() < 1e-14);
+    CHECK(input.bodyGroups[5] == "bar");
+    CHECK(makeSolids(input).size() == 10);
+    CHECK(makeSolids(input)[4].kind == Solid::Kind::Free);
+
+    // patches floor (a plane), frontAndBack (two planes in one patch: a surface), then the pipes
+    REQUIRE(input.walls.size() == 6);
+    CHECK(input.walls[0].name == "floor");
+    CHECK(input.walls[0].kind == WallDefinition::Kind::Plane);
+    CHECK((input.walls[0].normal - Vec3::UnitY()).norm() < 1e-12);
+    CHECK(input.walls[1].kind == WallDefinition::Kind::Surface);
+    for (const auto& t : input.walls[1].surface.triangles)
+    {
+        const auto& x = input.walls[1].surface.points;
+        const Vec3 n = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
+        CHECK(n.z()*(x[t[0]].z() < 0.2 ? 1 : -1) > 0); // towards the fluid
+    }
+    CHECK(input.structures[2].wall == 4);
+    CHECK(input.walls[4].material == 1);
+    REQUIRE(input.laws.size() == 4);
+    CHECK(input.laws[1].restitution == 0.5);
+    CHECK(input.laws[2].frictionAngleDeg == 20);
+    CHECK(input.laws[1].stiffness == 5e5);
+    CHECK(input.laws[0].restitution == ContactLaw().restitution);
+}
+
+TEST_CASE("poses: what one does not give is the group's")
+{
+    Scene s;
+    const BodiesInput input = s.read(bodies(bar + "velocity (1 0 0); poses ( { position (0.5 0.5 0.2); } { position (0.5 0.7 0.2); velocity (0 2 0); releaseTime 3; } );"));
+    REQUIRE(input.bodies.size() == 2);
+    CHECK(input.bodies[0].motion.velocity == Vec3(1, 0, 0));
+    CHECK(input.bodies[1].motion.velocity == Vec3(0, 2, 0));
+    CHECK(input.bodies[1].releaseTime == 3);
+    CHECK(input.bodies[1].name == "bar.1");
+}
+
+TEST_CASE("random places: inside the box, apart, the same for the same seed")
+{
+    Scene s;
+    const auto contents = [](int seed, const std::string& orientation)
+    {
+        return "structures { post { shape { type cylinder; end1 (0.5 0 0.2); end2 (0.5 1 0.2); radius 0.05; } } }"
+            + bodies(bar + "random { count 20; box ((0.1 0.02 0.02) (1 0.9 0.38)); seed " + std::to_string(seed) + "; minGap 0.005; orientation " + orientation
+                + "; release { from 1; interval 0.5; } }");
+    };
+    const BodiesInput input = s.read(contents(3, "random"));
+    REQUIRE(input.bodies.size() == 20);
+    CHECK(input.bodies[4].releaseTime == 3);
+    const auto sampled = std::make_shared<SampledShape>(input.bodies[0].shape, 0.005);
+    for (std::size_t i = 0; i < input.bodies.size(); ++i)
+    {
+        const ShapeAtPose a{"", sampled, input.bodies[i].pose};
+        const auto box = a.spaceBounds();
+        for (int d = 0; d < 3; ++d)
+        {
+            CHECK(box[0][d] >= Vec3(0.1, 0.02, 0.02)[d] - 1e-12);
+            CHECK(box[1][d] <= Vec3(1, 0.9, 0.38)[d] + 1e-12);
+        }
+        for (const Vec3& p : sampled->points())
+            CHECK(input.structures[0].solid.distance(a.pose.orientation*p + a.pose.position) >= 0.005 - 1e-9);
+        for (std::size_t j = 0; j < i; ++j) CHECK(gap(a, {"", sampled, input.bodies[j].pose}, 0.01) >= 0.004);
+    }
+    const BodiesInput again = s.read(contents(3, "random")), other = s.read(contents(4, "uniformYaw"));
+    CHECK(again.bodies[7].pose.position == input.bodies[7].pose.position);
+    CHECK(other.bodies[7].pose.position != input.bodies[7].pose.position);
+    for (const auto& b : other.bodies) CHECK(std::abs((b.pose.orientation*Vec3::UnitX()).y()) < 1e-12); // yaw about y, which is up
+}
+
+TEST_CASE("gaps of placed shapes")
+{
+    const auto box = std::make_shared<SampledShape>(makeBox(Vec3::Zero(), Vec3(1, 0.1, 0.1)), 0.02);
+    const Pose crossed{Vec3(0, 0, 0.15), Eigen::Quaterniond(Eigen::AngleAxisd(M_PI/2, Vec3::UnitZ()))};
+    CHECK(gap({"", box, {}}, {"", box, crossed}, 1) == doctest::Approx(0.05));
+    const Pose through{Vec3(0, 0, 0.08), crossed.orientation};
+    CHECK(gap({"", box, {}}, {"", box, through}, 1) == doctest::Approx(-0.02));
+    CHECK(gap({"", box, {}}, {"", box, {Vec3(9, 0, 0), {1, 0, 0, 0}}}, 0.5) == 0.5);
+}
+
+TEST_CASE("prescribed motions: the velocity is the derivative of the pose")
+{
+    Scene s;
+    const std::string shape = "structures { gate { contact off; shape { type box; size (0.1 0.1 0.1); } position (1 0.5 0.2); motion { ";
+    for (const std::string motion : {"type linear; velocity (1 2 0);", "type oscillating; direction (0 2 0); amplitude 0.1; period 2; phaseDeg 40;",
+        "type rotating; origin (1.2 0.5 0.2); axis (0 0 1); rpm 30;"})
+    {
+        const auto input = s.read(shape + motion + " } } }");
+        const auto& gate = input.structures[0];
+        CHECK(gate.solid.kind == Solid::Kind::Prescribed);
+        CHECK((gate.solid.pose.position - Vec3(1, 0.5, 0.2)).norm() < 1e-14);
+        Pose a, b, c;
+        Motion m, unused;
+        const double t = 0.3, h = 1e-5;
+        gate.motion(t - h, a, unused);
+        gate.motion(t + h, c, unused);
+        gate.motion(t, b, m);
+        CHECK(((c.position - a.position)/(2*h) - m.velocity).norm() < 1e-7);
+        const Eigen::AngleAxisd turned(c.orientation*a.orientation.conjugate());
+        CHECK((turned.axis()*turned.angle()/(2*h) - m.angularVelocity).norm() < 1e-6);
+    }
+}
+
+TEST_CASE("2D: a body reaches through the mesh, moved to its mid-plane")
+{
+    Scene s(false);
+    const BodiesInput input = s.read(bodies("shape { type box; size (0.2 0.1 0.1); } density 500; position (0.5 0.5 0); orientation { axis (0 0 1); angleDeg 20; }"));
+    CHECK(input.bodies[0].isPlanar);
+    CHECK(input.bodies[0].planeAxis == 2);
+    CHECK(input.bodies[0].pose.position.z() == doctest::Approx(0.05));
+    CHECK(input.bodies[0].mass == doctest::Approx(500*0.2*0.1*0.1));
+    CHECK(has(s.message(bodies("shape { type box; size (0.2 0.1 0.2); } density 500; position (0.5 0.5 0);")), "must reach through the mesh"));
+}
+
+TEST_CASE("one message for every mistake")
+{
+    Scene s;
+    const std::string at = "position (0.5 0.5 0.2); ";
+    CHECK(has(s.message(bodies("shape { type cubiod; } density 1;" + at)), "Unknown shape type 'cubiod'"));
+    CHECK(has(s.message(bodies("shape { type sphere; raidus 1; } density 1;" + at)), "Did you mean: radius"));
+    CHECK(has(s.message("boddies {}"), "Did you mean: bodies"));
+    CHECK(has(s.message(bodies("shape { type sphere; radius 0.1; } density -5;" + at)), "density' is -5: it must be larger than 0"));
+    CHECK(has(s.message(bodies("shape { type sphere; radius 0.1; }" + at)), "either 'density' [kg/m^3] or 'mass'"));
+    CHECK(has(s.message(bodies(bar + at + "array { count (0 1 1); spacing (1 1 1); }")), "at least 1"));
+    CHECK(has(s.message(bodies(bar + at + "material wod; ") + "materials (wood steel); wallMaterial wood;"), "Did you mean: wood"));
+    CHECK(has(s.message(bodies(bar + at) + "materials (wood steel); wallMaterial wood;"), "'material' is missing"));
+    CHECK(has(s.message(bodies(bar + at) + "contact { wood-steel {} }"), "Unknown keyword 'wood-steel'"));
+    CHECK(has(s.message(bodies(bar + at) + "wallPatches (flor);"), "Did you mean: floor"));
+    CHECK(has(s.message(bodies(bar + at + "spheres { radius 0.5; }")), "smallest extent is 0.02"));
+    CHECK(has(s.message(bodies(bar + at + "random {} poses ();")), "only one of"));
+    const std::string outside = s.message(bodies(bar + "position (1.95 0.5 0.2);"));
+    CHECK(has(outside, "Body bar reaches 50 mm into the outside of the mesh"));
+    CHECK(has(s.message(bodies(bar + "position (0.5 0.005 0.2);")), "wall floor"));
+    const std::string overlap = s.message(bodies(bar + "poses ( { position (0.5 0.5 0.2); } { position (0.5 0.515 0.2); } );"));
+    CHECK(has(overlap, "Body bar.1 reaches 5 mm into body bar.0"));
+    CHECK(has(s.message("structures { post { shape { type cylinder; end1 (0.5 0 0.2); end2 (0.5 1 0.2); radius 0.05; } } }" + bodies(bar + at)), "into structure post"));
+    CHECK(has(s.message("structures { post { shape { type box; size (0.1 0.1 0.1); } wall noslip; } }"), "Did you mean: noSlip"));
+    CHECK(has(s.message("structures { gate { shape { type box; size (0.1 0.1 0.1); } position (1.5 0.5 0.2); motion { type linear; velocity (1 0 0); } } }" + bodies(bar + at)), "contact off"));
+    CHECK(has(s.message(bodies(bar + "random { count 50; box ((0 0 0) (0.3 0.05 0.05)); tries 20; }")), "of 50 bodies 'bar' found a place within 20 tries"));
+    CHECK(has(s.message(bodies("shape { type cylinder; end1 (1 1 1); end2 (1 1 1); radius 1; } density 1;")), "no length"));
+    CHECK(s.message(bodies(bar + "position (0.5 0.01 0.2);")).empty()); // lies on the floor
+}
+
+TEST_CASE("an open STL is refused with its file")
+{
+    Scene s;
+    std::filesystem::create_directories(s.foam.folder() + "/constant/triSurface");
+    std::ofstream(s.foam.folder() + "/constant/triSurface/open.stl")
+        << "solid open\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid open\n";
+    CHECK(has(s.message(bodies("shape { type stl; file \"open.stl\"; } density 500;")), "open.stl"));
+    CHECK(has(s.message(bodies("shape { type stl; file \"absent.stl\"; } density 500;")), "absent.stl"));
+}

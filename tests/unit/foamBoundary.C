@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Boundary conditions: kinds, nodal values, flow rates, and what is refused. On 1 and 2 ranks.
+#include "foam/boundaryReader.H"
+#include "support/foamCase.H"
+
+#include <doctest/doctest.h>
+
+#include <mpi.h>
+
+#include <cmath>
+
+using namespace flotsam;
+
+namespace
+{
+
+using Edits = std::vector<FoamCase::Edit>;
+
+/// A case with its mesh and conditions.
+struct Scene
+{
+    FoamCase foam;
+    CaseControls controls;
+    MeshAdapter adapter;
+    Halo halo;
+    std::vector<BoundaryPatch> patches;
+    std::vector<double> velocity, alpha;
+
+    explicit Scene(const Edits& edits = {}, const std::string& blockMeshDict = "blockMeshDict")
+    :
+        foam("foamChannel", edits, blockMeshDict), controls(readCaseControls(foam.time())),
+        adapter(makeSimplexMesh(foam.mesh(), MPI_COMM_WORLD)), halo(adapter.mesh, MPI_COMM_WORLD),
+        velocity(adapter.mesh.nNodes*adapter.mesh.dim, 0.0), alpha(adapter.mesh.nNodes, 1.0)
+    {
+        patches = readBoundary(foam.mesh(), adapter, halo, controls);
+    }
+    const BoundaryPatch& patch(const std::string& name) const
+    {
+        for (const auto& p : patches) if (p.name == name) return p;
+        throw std::runtime_error("no patch " + name);
+    }
+    PatchValues values(const std::string& name, double time = 0) const
+    {
+        PatchValues v;
+        patch(name).evaluate({time, velocity.data(), alpha.data()}, v);
+        return v;
+    }
+    /// Flow of the P1 velocity out of the patch, all ranks [m^3/s].
+    double outflow(const std::string& name, const PatchValues& v) const
+    {
+        const BoundaryPatch& p = patch(name);
+        const SimplexMesh& mesh = adapter.mesh;
+        const MeshPatch& m = mesh.patches[p.meshPatch];
+        std::vector<double> u(velocity.size(), 0.0);
+        for (std::size_t i = 0; i < p.nodes.size(); ++i)
+            for (int d = 0; d < mesh.dim; ++d) u[p.nodes[i]*mesh.dim + d] = v.velocity[i*mesh.dim + d];
+        double sum = 0;
+        for (std::size_t f = 0; f < m.faceElement.size(); ++f)
+        {
+            if (!m.isOwnedFace[f]) continue;
+            double area = 0, mean = 0; // patches of the channel are normal to x
+            const double* x[3];
+            for (int k = 0; k < mesh.dim; ++k)
+            {
+                x[k] = &mesh.x[m.faceNodes[f*mesh.dim + k]*mesh.dim];
+                mean += u[m.faceNodes[f*mesh.dim + k]*mesh.dim]/mesh.dim;
+            }
+            if (mesh.dim == 2) area = std::abs(x[1][1] - x[0][1])*mesh.thickness;
+            else area = 0.5*std::abs((x[1][1] - x[0][1])*(x[2][2] - x[0][2]) - (x[2][1] - x[0][1])*(x[1][2] - x[0][2]));
+            sum += area*mean*(name == "inlet" ? -1 : 1);
+        }
+        return halo.sum(sum);
+    }
+};
+
+bool has(const std::string& s, const std::string& part)
+{
+    const bool found = s.find(part) != std::string::npos;
+    if (!found) MESSAGE("message was: " << s);
+    return found;
+}
+
+bool isSerial() { int n; MPI_Comm_size(MPI_COMM_WORLD, &n); return n == 1; }
+
+/// Message when the inlet's (or other) entry is replaced.
+std::string refused(const std::string& file, const std::string& from, const std::string& to)
+{
+    return messageOf([&] { Scene scene(Edits{{file, from, to}}); });
+}
+
+const std::string inletU = "type flowRateInletVelocity; volumetricFlowRate constant 0.05; value uniform (0 0 0);";
+
+} // namespace
+
+TEST_CASE("kinds of an interFoam channel, patches in the mesh's order")
+{
+    const Scene s;
+    using V = BoundaryPatch::Velocity;
+    using P = BoundaryPatch::Pressure;
+    using A = BoundaryPatch::Phase;
+    REQUIRE(s.patches.size() == 4);
+    for (std::size_t i = 0; i < 4; ++i) CHECK(s.patches[i].name == s.adapter.mesh.patches[i].name);
+    CHECK(s.patch("inlet").velocity == V::Fixed);
+    CHECK(s.patch("inlet").pressure == P::Natural);
+    CHECK(s.patch("inlet").phase == A::Inflow);
+    CHECK(s.patch("outlet").velocity == V::Open);
+    CHECK(s.patch("outlet").pressure == P::Fixed);
+    CHECK(s.patch("floor").isNoSlipWall);
+    CHECK(s.patch("floor").pressure == P::Natural);
+    CHECK(s.patch("top").velocity == V::Open);
+    CHECK(s.patch("top").pressure == P::Total);
+}
+
+TEST_CASE("p_rgh becomes the full pressure with the local density")
+{
+    Scene s;
+    for (int i = 0; i < s.adapter.mesh.nNodes; ++i) s.alpha[i] = s.adapter.mesh.x[2*i + 1] < 0.55 ? 1 : 0;
+    const auto& outlet = s.patch("outlet");
+    const PatchValues v = s.values("outlet");
+    REQUIRE(v.pressure.size() == outlet.nodes.size());
+    for (std::size_t i = 0; i < outlet.nodes.size(); ++i)
+    {
+        const double y = s.adapter.mesh.x[2*outlet.nodes[i] + 1];
+        CHECK(v.pressure[i] == doctest::Approx(7 - (y < 0.55 ? 1000 : 1)*10*y));
+    }
+    for (double p : s.values("top").pressure) CHECK(p == doctest::Approx(3 - 10));
+}
+
+TEST_CASE("flow rate: the P1 flux is the given one to round-off, nodes on walls stay at zero")
+{
+    for (const std::string mesh : {"blockMeshDict", "blockMeshDict3d"})
+    {
+        if (mesh == "blockMeshDict3d" && !isSerial()) continue;
+        Edits edits;
+        if (mesh == "blockMeshDict3d")
+            edits = {{"0/U", "frontAndBack { type empty; }", "frontAndBack { type slip; }"}, {"0/p_rgh", "frontAndBack { type empty; }", "frontAndBack { type zeroGradient; }"},
+                {"0/alpha.water", "frontAndBack { type empty; }", "frontAndBack { type zeroGradient; }"}};
+        Scene s(edits, mesh);
+        const PatchValues v = s.values("inlet");
+        CHECK(s.outflow("inlet", v) == doctest::Approx(-0.05).epsilon(1e-12));
+        const auto& inlet = s.patch("inlet");
+        const int dim = s.adapter.mesh.dim;
+        for (std::size_t i = 0; i < inlet.nodes.size(); ++i)
+            if (s.adapter.mesh.x[inlet.nodes[i]*dim + 1] < 1e-9) CHECK(v.velocity[i*dim] == 0);
+    }
+}
+
+TEST_CASE("flow rate over the wetted part follows alpha")
+{
+    Scene s(Edits{{"0/U", inletU, "type variableHeightFlowRateInletVelocity; flowRate table ((0 0.01) (10 0.03)); alpha alpha.water; value uniform (0 0 0);"}});
+    for (int i = 0; i < s.adapter.mesh.nNodes; ++i) s.alpha[i] = s.adapter.mesh.x[2*i + 1] < 0.55 ? 1.02 : -0.01;
+    const PatchValues v = s.values("inlet", 5);
+    CHECK(s.outflow("inlet", v) == doctest::Approx(-0.02).epsilon(1e-12));
+    const auto& inlet = s.patch("inlet");
+    for (std::size_t i = 0; i < inlet.nodes.size(); ++i)
+        if (s.adapter.mesh.x[2*inlet.nodes[i] + 1] > 0.55) CHECK(v.velocity[2*i] == 0);
+    std::fill(s.alpha.begin(), s.alpha.end(), 0.0);
+    if (isSerial()) CHECK(has(messageOf([&] { s.values("inlet"); }), "hold no liquid"));
+}
+
+TEST_CASE("variableHeightFlowRate cuts off at its bounds")
+{
+    Scene s;
+    for (int i = 0; i < s.adapter.mesh.nNodes; ++i) s.alpha[i] = s.adapter.mesh.x[2*i + 1]; // 0 ... 1
+    const auto& inlet = s.patch("inlet");
+    const PatchValues v = s.values("inlet");
+    for (std::size_t i = 0; i < inlet.nodes.size(); ++i)
+    {
+        const double a = s.alpha[inlet.nodes[i]];
+        CHECK(v.alpha[i] == (a < 0.1 ? 0.0 : a > 0.9 ? 1.0 : a));
+    }
+}
+
+TEST_CASE("uniform values come back unchanged; a list of face values is averaged to the nodes")
+{
+    Scene s(Edits{{"0/U", inletU, "type fixedValue; value uniform (0.3 0.1 0);"}});
+    const PatchValues v = s.values("inlet");
+    for (std::size_t i = 0; i < v.velocity.size(); i += 2) { CHECK(v.velocity[i] == 0.3); CHECK(v.velocity[i + 1] == 0.1); }
+    if (!isSerial()) return; // lists are per rank
+    Scene list(Edits{{"0/U", inletU, "type fixedValue; value nonuniform List<vector> 10((1 0 0)(3 0 0)(5 0 0)(7 0 0)(9 0 0)(11 0 0)(13 0 0)(15 0 0)(17 0 0)(19 0 0));"}});
+    const auto& inlet = list.patch("inlet");
+    const PatchValues w = list.values("inlet");
+    for (std::size_t i = 0; i < inlet.nodes.size(); ++i)
+    {
+        const double y = list.adapter.mesh.x[2*inlet.nodes[i] + 1]; // faces 0.1 high hold 20 y at their centres
+        const double expected = y < 0.01 ? 1 : y > 0.99 ? 19 : 20*y;
+        CHECK(w.velocity[2*i] == doctest::Approx(expected));
+    }
+}
+
+TEST_CASE("time functions")
+{
+    Scene s(Edits{{"0/U", inletU, "type uniformFixedValue; uniformValue table ((0 (0 0 0)) (2 (4 0 0))); value uniform (0 0 0);"}});
+    const auto u = s.values("inlet", 0.5).velocity;
+    for (std::size_t i = 0; i < u.size(); i += 2) CHECK(u[i] == doctest::Approx(1));
+}
+
+TEST_CASE("prghPressure and prghTotalPressure give the full pressure")
+{
+    Scene s(Edits{{"0/p_rgh", "type fixedValue; value uniform 7;", "type prghPressure; p uniform 11; value uniform 0;"}, {"0/p_rgh", "type totalPressure; p0 uniform 3;", "type prghTotalPressure; p0 uniform 4; value uniform 0;"}});
+    for (double p : s.values("outlet").pressure) CHECK(p == 11);
+    for (double p : s.values("top").pressure) CHECK(p == 4);
+}
+
+TEST_CASE("one fluid with a kinematic pressure: values become Pa")
+{
+    if (!isSerial()) return;
+    Scene s(Edits{{"constant/transportProperties", "phases (water air);", "nu 1e-6; rho 500;"}, {"0/p_rgh", "[1 -1 -2 0 0 0 0]", "[0 2 -2 0 0 0 0]"}});
+    const auto& outlet = s.patch("outlet");
+    const PatchValues v = s.values("outlet");
+    for (std::size_t i = 0; i < outlet.nodes.size(); ++i)
+        CHECK(v.pressure[i] == doctest::Approx(500*(7 - 10*s.adapter.mesh.x[2*outlet.nodes[i] + 1])));
+    CHECK(v.alpha.empty());
+}
+
+TEST_CASE("what is not available is refused, with what could be used instead")
+{
+    if (!isSerial()) return;
+    const std::string unknown = refused("0/U", "type zeroGradient", "type waveVelocity");
+    CHECK(has(unknown, "Field U, patch outlet: condition 'waveVelocity' is not available"));
+    CHECK(has(unknown, "variableHeightFlowRateInletVelocity"));
+    CHECK(has(refused("0/p_rgh", "type fixedValue", "type fixedMean"), "fixedMean"));
+    CHECK(has(refused("0/alpha.water", "type inletOutlet", "type inletOutletX"), "Nearest: inletOutlet"));
+    CHECK(has(refused("0/U", inletU, "type flowRateInletVelocity; massFlowRate 5;"), "volumetricFlowRate"));
+    CHECK(has(refused("0/U", "type pressureInletOutletVelocity;", "type pressureInletOutletVelocity; tangentialVelocity uniform (1 0 0);"), "tangentialVelocity"));
+    CHECK(has(refused("0/U", "type zeroGradient", "type inletOutlet; inletValue uniform (1 0 0); value uniform (1 0 0)"), "inletValue"));
+    CHECK(has(refused("0/alpha.water", "inletValue uniform 0", "inletValue uniform 1.5"), "from 0 to 1"));
+    CHECK(has(refused("0/alpha.water", "type zeroGradient; }\n    floor", "type constantAlphaContactAngle; theta0 30; limit none; value uniform 0; }\n    floor"), "theta0 30 is not modelled"));
+    CHECK(has(refused("0/p_rgh", "[1 -1 -2 0 0 0 0]", "[0 2 -2 0 0 0 0]"), "dimensions"));
+}
+
+TEST_CASE("combinations: prescribed velocity and prescribed pressure do not go together, everything else does")
+{
+    if (!isSerial()) return;
+    CHECK(has(refused("0/U", "outlet { type zeroGradient; }", "outlet { type fixedValue; value uniform (1 0 0); }"), "both are prescribed"));
+    CHECK(has(refused("0/U", "outlet { type zeroGradient; }", "outlet { type slip; }"), "both are prescribed"));
+    CHECK(refused("0/p_rgh", "type fixedValue; value uniform 7;", "type zeroGradient;").empty()); // interFoam's weir outlet
+    CHECK(refused("0/p_rgh", "type totalPressure; p0 uniform 3;", "type zeroGradient;").empty());
+}

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Fields: cell values -> nodes, nodes -> cells, patches and points, and what is written. On 1 and 2 ranks.
+#include "core/nodeGraph.hpp"
+#include "foam/boundaryConditions.H"
+#include "foam/fieldIO.H"
+#include "support/foamCase.H"
+
+#include "surfaceFields.H"
+
+#include <doctest/doctest.h>
+
+#include <mpi.h>
+
+using namespace flotsam;
+
+namespace
+{
+
+struct Scene
+{
+    FoamCase foam{"foamChannel"};
+    CaseControls controls = readCaseControls(foam.time());
+    MeshAdapter adapter = makeSimplexMesh(foam.mesh(), MPI_COMM_WORLD);
+    Halo halo{adapter.mesh, MPI_COMM_WORLD};
+    FoamFields fields{foam.mesh(), adapter, halo, controls};
+    FlowState state;
+
+    const Foam::volScalarField& scalar(const char* name) { return foam.mesh().lookupObject<Foam::volScalarField>(name); }
+    const Foam::volVectorField& velocity() { return foam.mesh().lookupObject<Foam::volVectorField>("U"); }
+
+    /// u = (1+2x, 3y), p linear, alpha = 1
+    void setLinear()
+    {
+        const SimplexMesh& mesh = adapter.mesh;
+        fields.readStart(state);
+        for (int i = 0; i < mesh.nNodes; ++i)
+        {
+            const double x = mesh.x[2*i], y = mesh.x[2*i + 1];
+            state.u[2*i] = 1 + 2*x;
+            state.u[2*i + 1] = 3*y;
+            state.p[i] = 5 - 10000*y + x;
+        }
+    }
+};
+
+bool isSerial() { int n; MPI_Comm_size(MPI_COMM_WORLD, &n); return n == 1; }
+
+}
+
+TEST_CASE("uniform start fields arrive at the nodes exactly; p = p_rgh + rho g.x")
+{
+    Scene s;
+    s.fields.readStart(s.state);
+    const SimplexMesh& mesh = s.adapter.mesh;
+    REQUIRE(s.state.u.size() == static_cast<std::size_t>(2*mesh.nNodes));
+    for (int i = 0; i < mesh.nNodes; ++i)
+    {
+        CHECK(s.state.u[2*i] == 0.3);
+        CHECK(s.state.u[2*i + 1] == -0.1);
+        CHECK(s.state.alpha[i] == 1);
+        CHECK(s.state.p[i] == doctest::Approx(2 - 10000*mesh.x[2*i + 1]));
+    }
+}
+
+TEST_CASE("linear nodal fields give the linear field's value at cell and face centres, and at the points of both planes")
+{
+    Scene s;
+    s.setLinear();
+    s.fields.update(s.state, nullptr, {});
+    const Foam::fvMesh& mesh = s.foam.mesh();
+    forAll(mesh.C(), c)
+    {
+        const Foam::point x = mesh.C()[c];
+        CHECK(s.velocity()[c].x() == doctest::Approx(1 + 2*x.x()));
+        CHECK(s.velocity()[c].y() == doctest::Approx(3*x.y()));
+        CHECK(s.scalar("p")[c] == doctest::Approx(5 - 10000*x.y() + x.x()));
+        CHECK(s.scalar("p_rgh")[c] == doctest::Approx(5 + x.x()));
+        CHECK(s.scalar("alpha.water")[c] == doctest::Approx(1));
+    }
+    forAll(mesh.boundary(), i)
+    {
+        const auto& patch = s.scalar("p").boundaryField()[i];
+        if (patch.coupled())
+        {
+            const Foam::scalarField inside(patch.patchInternalField()), outside(patch.patchNeighbourField());
+            forAll(inside, f) CHECK(std::abs(outside[f] - inside[f]) == doctest::Approx(0.1));
+            continue;
+        }
+        forAll(patch, f)
+        {
+            const Foam::point x = mesh.Cf().boundaryField()[i][f];
+            CHECK(patch[f] == doctest::Approx(5 - 10000*x.y() + x.x()));
+        }
+    }
+    const auto& points = mesh.lookupObject<Foam::pointVectorField>("pointU");
+    forAll(mesh.points(), p) CHECK(points[p].x() == doctest::Approx(1 + 2*mesh.points()[p].x()));
+    CHECK(mesh.foundObject<Foam::pointScalarField>("pointAlpha"));
+}
+
+TEST_CASE("written fields keep their boundary dictionaries")
+{
+    Scene s;
+    s.setLinear();
+    s.foam.time().setTime(0.1, 10);
+    s.fields.update(s.state, nullptr, {});
+    s.foam.time().writeNow();
+    const std::string pressure = s.foam.read("0.1/p_rgh"), velocity = s.foam.read("0.1/U");
+    CHECK(pressure.find("totalPressure") != std::string::npos);
+    CHECK(pressure.find("p0") != std::string::npos);
+    CHECK(pressure.find("fixedFluxPressure") != std::string::npos);
+    CHECK(velocity.find("volumetricFlowRate") != std::string::npos);
+    CHECK(velocity.find("pressureInletOutletVelocity") != std::string::npos);
+    for (const char* name : {"p", "alpha.water", "pointU", "pointP", "pointAlpha"}) CHECK_FALSE(s.foam.read(std::string("0.1/") + name).empty());
+    // and they can be read again
+    CHECK(messageOf([&]
+    {
+        s.foam.time().setTime(0.1, 10);
+        const Foam::volVectorField again(Foam::IOobject("U", "0.1", s.foam.mesh(), Foam::IOobject::MUST_READ, Foam::IOobject::NO_WRITE, false), s.foam.mesh());
+        CHECK(again[0].x() == doctest::Approx(s.velocity()[0].x()));
+    }).empty());
+}
+
+TEST_CASE("solid fraction is the covered volume; inside a solid the velocity is the solid's")
+{
+    Scene s;
+    s.setLinear();
+    Solid box;
+    box.kind = Solid::Kind::Prescribed;
+    box.shape = makeBox(Vec3::Zero(), Vec3(0.4, 0.3, 1));
+    box.pose.position = Vec3(1.03, 0.52, 0.05);
+    box.motion.velocity = Vec3(7, 8, 9);
+    const NodeGraph graph(s.adapter.mesh);
+    const Cover cover = cutMesh(s.adapter.mesh, graph, s.halo, {box});
+    s.fields.update(s.state, &cover, {box});
+    double volume = 0;
+    const auto& solid = s.scalar("solid");
+    forAll(solid, c)
+    {
+        volume += solid[c]*s.foam.mesh().V()[c];
+        const Foam::point x = s.foam.mesh().C()[c];
+        if (solid[c] < 1) continue;
+        CHECK(s.velocity()[c].x() == doctest::Approx(7));
+        CHECK(s.velocity()[c].z() == 0); // 2D
+        CHECK(std::abs(x.x() - 1.03) < 0.2);
+    }
+    CHECK(s.halo.sum(volume) == doctest::Approx(cover.solidVolume[0]*0.1));
+    CHECK(s.halo.sum(volume) == doctest::Approx(0.4*0.3*0.1).epsilon(0.05));
+}
+
+TEST_CASE("work is skipped when nobody looks")
+{
+    if (!isSerial()) return;
+    Scene s;
+    s.foam.time().setTime(0.01, 1);
+    CHECK_FALSE(s.fields.isNeeded());
+}

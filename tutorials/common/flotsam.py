@@ -1,0 +1,343 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reads and evaluates the results of a case: fields at written times (serial or decomposed), bodies.h5, water levels.
+
+Needs no OpenFOAM: python3-vtk9, python3-h5py, python3-numpy. Pictures are in flotsamScene.py. SI units throughout.
+"""
+
+import functools
+import os
+
+import h5py
+import numpy as np
+import vtkmodules.all as vtk
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+
+ALPHA = "alpha.water"
+NODAL = {ALPHA: "pointAlpha", "U": "pointU", "p": "pointP"}  # nodal twin of a volume field, where the solver wrote one
+
+
+class CaseError(RuntimeError):
+    """Something is missing in the case; the message says what and where."""
+
+
+# --- fields -----------------------------------------------------------------------------------------------------------
+
+def _isTime(name):
+    try:
+        return float(name) >= 0
+    except ValueError:
+        return False
+
+
+def _timeFolders(folder):
+    """{time: folder name} of one case or processor folder; a folder without fields does not count."""
+    found = {}
+    for name in os.listdir(folder) if os.path.isdir(folder) else []:
+        path = os.path.join(folder, name)
+        if _isTime(name) and os.path.isdir(path) and any(os.path.isfile(os.path.join(path, f)) for f in os.listdir(path)):
+            found[float(name)] = name
+    return found
+
+
+def _processors(case):
+    names = [n for n in os.listdir(case) if n.startswith("processor") and n[9:].isdigit()]
+    return [os.path.join(case, n) for n in sorted(names, key=lambda n: int(n[9:]))]
+
+
+def _parts(case, time=None):
+    """Folders that hold the fields: the case itself, or its processors where these hold more (or the wanted) times."""
+    if not os.path.isdir(case):
+        raise CaseError(f"{case}: no such case folder")
+    processors = _processors(case)
+    own = _timeFolders(case)
+    theirs = _timeFolders(processors[0]) if processors else {}
+    hasMesh = os.path.isdir(os.path.join(case, "constant", "polyMesh"))
+    if time is not None:
+        wanted = min(set(own) | set(theirs), key=lambda t: abs(t - time), default=None)
+        return [case] if wanted in own and (hasMesh or not processors) else processors
+    return processors if len(theirs) > len(own) else [case]
+
+
+def times(case):
+    """Written times, ascending, of the case or of its processors (whichever holds more)."""
+    return sorted(_timeFolders(_parts(case)[0]))
+
+
+def nearestTime(case, time):
+    """The written time nearest to `time`; "last" and "first" are allowed."""
+    written = times(case)
+    if not written:
+        raise CaseError(f"{case}: no written times; has the solver been run?")
+    if time == "last":
+        return written[-1]
+    if time == "first":
+        return written[0]
+    return min(written, key=lambda t: abs(t - time))
+
+
+def _readPart(folder, time):
+    reader = vtk.vtkOpenFOAMReader()
+    reader.SetFileName(os.path.join(folder, "any.foam"))  # only its folder matters; the file need not exist
+    reader.UpdateInformation()
+    reader.EnableAllCellArrays()
+    reader.EnableAllPointArrays()
+    reader.DisableAllPatchArrays()
+    reader.SetPatchArrayStatus("internalMesh", 1)
+    reader.CreateCellToPointOff()  # done after the parts are joined: no seams
+    reader.UpdateTimeStep(time)
+    output = reader.GetOutput()
+    block = output.GetBlock(0) if output.GetNumberOfBlocks() else None
+    if block is None or block.GetNumberOfPoints() == 0:
+        raise CaseError(f"{folder}: no mesh or fields could be read at time {time:g}")
+    return block
+
+
+def _addPointData(mesh):
+    """Point values of the cell fields: the solver's nodal values where they are written, else the mean of the cells."""
+    data = mesh.GetPointData()
+    for name, nodal in NODAL.items():
+        if data.HasArray(nodal) and not data.HasArray(name):
+            twin = data.GetArray(nodal).NewInstance()
+            twin.DeepCopy(data.GetArray(nodal))
+            twin.SetName(name)
+            data.AddArray(twin)
+    bare = vtk.vtkUnstructuredGrid()
+    bare.CopyStructure(mesh)
+    bare.GetCellData().ShallowCopy(mesh.GetCellData())
+    convert = vtk.vtkCellDataToPointData()
+    convert.SetInputData(bare)
+    convert.Update()
+    means = convert.GetOutput().GetPointData()
+    for i in range(means.GetNumberOfArrays()):
+        if not data.HasArray(means.GetArrayName(i)):
+            data.AddArray(means.GetArray(i))
+
+
+@functools.lru_cache(maxsize=2)
+def _grid(case, time, folders, _changed):
+    parts = [_readPart(folder, time) for folder in folders]
+    mesh = parts[0]
+    if len(parts) > 1:
+        join = vtk.vtkAppendFilter()
+        join.MergePointsOn()
+        for part in parts:
+            join.AddInputData(part)
+        join.Update()
+        mesh = join.GetOutput()
+    _addPointData(mesh)
+    return mesh
+
+
+def grid(case, time):
+    """vtkUnstructuredGrid of the whole domain at the written time nearest to `time` (cell data and point data).
+
+    Shared between calls: do not change it.
+    """
+    case = os.path.abspath(case)
+    time = nearestTime(case, time)
+    folders = _parts(case, time)
+    folder = os.path.join(folders[0], _timeFolders(folders[0])[time])
+    return _grid(case, time, tuple(folders), os.path.getmtime(folder))
+
+
+def _array(data, name, what):
+    if not data.HasArray(name):
+        known = ", ".join(sorted(data.GetArrayName(i) for i in range(data.GetNumberOfArrays())))
+        raise CaseError(f"no field {name} in {what}; there are: {known}")
+    return vtk_to_numpy(data.GetArray(name))
+
+
+def fields(case, time, names):
+    """{name: cell values} and "centre" (n x 3), "volume" (n) of the cells."""
+    mesh = grid(case, time)
+    result = {name: _array(mesh.GetCellData(), name, f"{case} at {time}") for name in names}
+    centres = vtk.vtkCellCenters()
+    centres.SetInputData(mesh)
+    centres.VertexCellsOff()
+    centres.Update()
+    result["centre"] = vtk_to_numpy(centres.GetOutput().GetPoints().GetData())
+    sizes = vtk.vtkCellSizeFilter()
+    sizes.SetInputData(mesh)
+    sizes.Update()
+    result["volume"] = vtk_to_numpy(sizes.GetOutput().GetCellData().GetArray("Volume"))
+    return result
+
+
+def _probe(mesh, points, cellValues=False):
+    """Point data of the mesh, interpolated linearly (or its cell data as they are); and a mask of the points inside it."""
+    if cellValues:
+        source = vtk.vtkUnstructuredGrid()
+        source.CopyStructure(mesh)
+        source.GetCellData().ShallowCopy(mesh.GetCellData())
+        mesh = source
+    cloud = vtk.vtkPolyData()
+    vtkPoints = vtk.vtkPoints()
+    vtkPoints.SetDataTypeToDouble()
+    vtkPoints.SetData(numpy_to_vtk(np.ascontiguousarray(points, dtype=float), deep=True))
+    cloud.SetPoints(vtkPoints)
+    probe = vtk.vtkProbeFilter()
+    probe.SetInputData(cloud)
+    probe.SetSourceData(mesh)
+    probe.PassPointArraysOff()
+    probe.Update()
+    output = probe.GetOutput().GetPointData()
+    return output, vtk_to_numpy(output.GetArray("vtkValidPointMask")).astype(bool)
+
+
+def sample(case, time, points, names):
+    """{name: values at the points (n x 3)}, linear in between; nan outside the mesh."""
+    data, isInside = _probe(grid(case, time), np.atleast_2d(points))
+    result = {}
+    for name in names:
+        values = _array(data, name, f"{case} at {time}").astype(float)
+        values[~isInside] = np.nan
+        result[name] = values
+    return result
+
+
+def _columns(mesh, stations, up, nSamples):
+    """Points of vertical lines, stations x nSamples x 3, at the middles of equal intervals; the interval's length."""
+    bounds = np.array(mesh.GetBounds()).reshape(3, 2)
+    flat = [d for d in range(3) if d != up]
+    heights = np.linspace(bounds[up, 0], bounds[up, 1], nSamples + 1)
+    points = np.empty((len(stations), nSamples, 3))
+    for i, station in enumerate(stations):
+        here = np.atleast_1d(station).astype(float)
+        middle = bounds[flat[1]].mean() + 1e-6 * np.ptp(bounds[flat[1]])  # off the faces of an even mesh
+        points[i, :, flat[0]] = here[0]
+        points[i, :, flat[1]] = here[1] if len(here) > 1 else middle
+        points[i, :, up] = 0.5 * (heights[1:] + heights[:-1])
+    return points, heights[1] - heights[0]
+
+
+def _highestCrossing(alpha, heights, level=0.5):
+    wet = np.flatnonzero(alpha >= level)
+    if not len(wet):
+        return np.nan
+    k = wet[-1]
+    if k + 1 == len(alpha):
+        return heights[-1]
+    return heights[k] + (alpha[k] - level) / (alpha[k] - alpha[k + 1]) * (heights[k + 1] - heights[k])
+
+
+def waterLevel(case, time, stations, method="integral", up=2, alpha=ALPHA, nSamples=800):
+    """Height of the water surface [m] at stations: x values (in the middle of the domain) or (x, y) pairs.
+
+    "integral": lowest point of the column + the integral of alpha over it: water depth, splashes included, no matter how
+    smeared the surface is. "highest": the highest point where alpha = 0.5. nan where there is no mesh (or no water).
+    `up`: axis against gravity; the stations are given in the other two, in their order.
+    """
+    if method not in ("integral", "highest"):
+        raise ValueError(f"waterLevel: method '{method}'; allowed: integral, highest")
+    mesh = grid(case, time)
+    points, step = _columns(mesh, [stations] if np.isscalar(stations) else stations, up, nSamples)
+    # cell values conserve the volume, nodal ones place the surface within a cell
+    data, isInside = _probe(mesh, points.reshape(-1, 3), cellValues=method == "integral")
+    values = _array(data, alpha, f"{case} at {time}").reshape(points.shape[:2])
+    isInside = isInside.reshape(points.shape[:2])
+    levels = np.full(len(points), np.nan)
+    for i, inside in enumerate(isInside):
+        if not inside.any():
+            continue
+        heights, column = points[i, inside, up], np.clip(values[i, inside], 0, 1)
+        levels[i] = _highestCrossing(column, heights) if method == "highest" else (
+            heights[0] - 0.5 * step + step * column.sum())
+    return levels
+
+
+def waterVolume(case, time, alpha=ALPHA):
+    """Liquid volume in the cells [m^3]: sum of alpha V."""
+    data = fields(case, time, [alpha])
+    return float((data[alpha] * data["volume"]).sum())
+
+
+def waterSurface(case, time, alpha=ALPHA, level=0.5):
+    """vtkPolyData: the surface alpha = level, with the point data of the mesh."""
+    mesh = grid(case, time)
+    _array(mesh.GetPointData(), alpha, f"{case} at {time}")
+    contour = vtk.vtkContourFilter()
+    contour.SetInputData(mesh)
+    contour.SetInputArrayToProcess(0, 0, 0, vtk.vtkDataObject.FIELD_ASSOCIATION_POINTS, alpha)
+    contour.SetValue(0, level)
+    contour.Update()
+    return contour.GetOutput()
+
+
+# --- bodies.h5 --------------------------------------------------------------------------------------------------------
+
+class Member:
+    """Series of one body or structure member: m.position (n x 3), m.fluidForce, ...; m.mass, m.volume; m.time."""
+
+    def __init__(self, group):
+        self.mass = float(group.attrs.get("mass", 0))
+        self.volume = float(group.attrs.get("volume", 0))
+        self.number = int(group.attrs.get("member", -1))
+        for name in group:
+            setattr(self, name, group[name][...])
+        self.units = {name: group[name].attrs.get("unit", b"") for name in group}
+
+
+class History:
+    """bodies.h5 as numpy arrays; see history()."""
+
+    def __init__(self, file):
+        if not os.path.isfile(file):
+            raise CaseError(f"{file}: no such file; has the solver been run?")
+        with h5py.File(file, "r") as content:
+            self.run = {name: content["run"][name][...] for name in content["run"]}
+            self._members = {}
+            self.bodies, self.structures = [], []
+            for kind, names in (("bodies", self.bodies), ("structures", self.structures)):
+                for name in sorted(content.get(kind, {}), key=lambda n: content[kind][n].attrs.get("member", 0)):
+                    names.append(name)
+                    self._members[kind + "/" + name] = Member(content[kind][name])
+            self.surface = {name: content["surface"][name][...] for name in content.get("surface", {})}
+        self.time = self.run["time"]
+
+    def __getitem__(self, name):
+        """A member by name; "bodies/x" or "structures/x" where both have an x."""
+        found = [m for m in (name, "bodies/" + name, "structures/" + name) if m in self._members]
+        if not found:
+            raise CaseError(f"no body or structure {name}; there are: {', '.join(self.bodies + self.structures)}")
+        return self._members[found[0]]
+
+    def at(self, name, quantity, time):
+        """A series of a member, linear between the records."""
+        values = getattr(self[name], quantity)
+        if values.ndim == 1:
+            return np.interp(time, self.time, values)
+        return np.stack([np.interp(time, self.time, values[:, d]) for d in range(values.shape[1])], axis=-1)
+
+    def mean(self, name, quantity, start, end=np.inf):
+        """Mean of a series over time from start to end (trapezoidal: steps may differ)."""
+        chosen = (self.time >= start) & (self.time <= end)
+        if chosen.sum() < 2:
+            raise CaseError(f"fewer than two records between {start:g} s and {end:g} s")
+        t, values = self.time[chosen], getattr(self[name], quantity)[chosen]
+        return np.trapz(values, t, axis=0) / (t[-1] - t[0])
+
+
+def historyFile(case):
+    """The bodies.h5 of a case (or of the folder that holds it); None where there is none."""
+    for path in ("postProcessing/flotsam/bodies.h5", "bodies.h5"):
+        if os.path.isfile(os.path.join(case, path)):
+            return os.path.join(case, path)
+    return None
+
+
+def history(path):
+    """History of a bodies.h5, given itself, its folder or the case."""
+    return History((historyFile(path) or os.path.join(path, "bodies.h5")) if os.path.isdir(path) else path)
+
+
+def sumForce(h, names, quantity="fluidForce"):
+    """Sum of a series over members, n x 3."""
+    return sum((getattr(h[name], quantity) for name in names), np.zeros((len(h.time), 3)))
+
+
+def captured(h, inside, names=None):
+    """Share of the bodies per time whose position fulfils `inside` (function: positions n x 3 -> n booleans)."""
+    names = h.bodies if names is None else names
+    if not names:
+        return np.zeros(len(h.time))
+    return np.mean([np.asarray(inside(h["bodies/" + name].position), dtype=float) for name in names], axis=0)
