@@ -119,6 +119,11 @@ void run(Foam::Time& runTime, const Foam::fvMesh& mesh, bool isDryRun)
     while (runTime.run())
     {
         auto [wanted, limit] = nextTimeStep(step, controls.time, dt);
+        if (wanted < controls.time.minDeltaT)
+            throw std::runtime_error("the flow limits the time step to " + std::to_string(wanted) + " s at t = "
+                + std::to_string(runTime.value()) + " s, below minDeltaT of system/controlDict: "
+                + step.fluid().describeFastest() + ". The solution has become unstable there: look at the last written fields,"
+                " reduce maxCo, or refine the mesh");
         runTime.setDeltaT(wanted);          // OpenFOAM shortens it to meet write times
         double used = runTime.deltaTValue();
         if (used < 0.999*wanted) limit = "write";

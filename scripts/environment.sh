@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# shellcheck shell=bash
 # Sourced (bash) by every script: where things are, and what OpenFOAM and Open MPI need to run.
 flotsamRoot=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 flotsamBuild=${FLOTSAM_BUILD:-$flotsamRoot/build}

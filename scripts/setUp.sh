@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
+# shellcheck shell=bash
 # Sourced (bash) by Allrun and Alltest: their options, and the way from a fresh machine to a built flotsam.
 . "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 

@@ -193,6 +193,8 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
     const int wallMaterial = patches.empty() ? 0 : readMaterial(dict, "wallMaterial", input.materials);
     for (const std::string& name : patches)
         input.walls.push_back(makeMeshWall(mesh, mesh.boundaryMesh()[mesh.boundaryMesh().findPatchID(name)], halo, wallMaterial));
+    if (patches.empty() && !dict.found("wallPatches"))
+        Foam::Info << "constant/bodies: the mesh has no patch of type wall, so bodies can leave it everywhere. If that is not meant: wallPatches (names);" << Foam::nl;
     Obstacles obstacles = makeObstacles(input, frame); // the patches; structures by their shapes
     addStructureWalls(dict, input);
     placeAll(groups, frame, obstacles);

@@ -20,7 +20,7 @@ struct DemSetup
     int nMaterials = 1;
     std::vector<ContactLaw> laws;       ///< nMaterials*nMaterials, symmetric
     std::array<Vec3, 2> box;            ///< region that holds everything; grows if a body leaves it
-    double timeStep = 0;                ///< [s]; 0: chosen from stiffness, damping and masses (see contactTimeStep())
+    double timeStep = 0;                ///< contact sub-step [s]; 0: chosen from stiffness, damping, masses (docs/contact.md)
     double skin = 0.004;                ///< neighbour list skin [m]
 };
 
@@ -46,14 +46,18 @@ public:
     std::vector<BodyState> states() const;
     /// Time-mean contact force and moment of each body over the last advance (momentum balance, exact).
     std::vector<Load> meanContactLoads() const;
-    /// Time-mean force on each wall over the last advance [N] (sum over bodies; momentum-consistent within a stated error).
+    /// Time-mean load on each wall over the last advance, added up in every sub-step: the forces on all walls are the
+    /// opposite of the sum over the bodies to round-off. Moments are about the origin of SPACE [N m] (mesh walls: to half
+    /// the overlap times the friction force).
     std::vector<Load> meanWallLoads() const;
     std::vector<Contact> contacts() const;
-    bool hasContact() const;            ///< any contact in any sub-step of the last advance
+    bool hasContact() const;            ///< any contact force in any sub-step of the last advance
     long subSteps() const;              ///< of the last advance
 
     /// Held bodies do not move (before their release time); their contact load is still computed.
     void setHeld(const std::vector<char>& isHeld);
+    /// Sets pose and motion (the angular momentum follows from the angular velocity). A body whose pose changes loses
+    /// its contact force of the instant; restore() is the way to go back in time.
     void setStates(const std::vector<BodyState>& states);
 
     DemState save() const;

@@ -6,16 +6,28 @@
 #include "equations/flowStep.hpp"
 #include "equations/stabilisation.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace flotsam
 {
 
-/// False for an element without a fluid part. Sizes as in FlowEquation.
+/// Nodal arrays of one assembly. Sizes nNodes or nNodes*dim.
+struct NodalData
+{
+    std::vector<double> rho, rhoOld, rhoOlder;  ///< at t^(n+1), t^n, t^(n-1) [kg/m^3]
+    std::vector<double> mu;                     ///< [Pa s]
+    std::vector<double> advection;              ///< a at t^(n+1) [m/s]
+};
+
+/// Ratio of densities within the three time levels of an element from which its inertia is taken first order in time: a second
+/// order formula of a density that falls a thousandfold within two steps is a negative mass.
+constexpr double steepDensity = 1.5;
+
+/// False for an element without a fluid part.
 template<int D>
 inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& step, const NumericsControls& controls,
-    const std::vector<double>& rho, const std::vector<double>& mu, const std::vector<double>& rhoRate,
-    const std::vector<double>& advection, const std::vector<double>& history, ElementData<D>& data)
+    const NodalData& nodal, ElementData<D>& data)
 {
     constexpr int N = D + 1;
     const CutElement* cut = nullptr;
@@ -41,22 +53,33 @@ inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& 
     }
     const int* nodes = &mesh.elements[std::size_t(e)*N];
     data.gradN = &mesh.gradN[std::size_t(e)*N*D];
-    data.rho = data.mu = data.rhoRate = 0;
+    data.rho = data.mu = 0;
+    double rho1 = 0, rho2 = 0;
     for (int d = 0; d < D; ++d) data.advection[d] = 0;
     const double inverse = 1/data.volume;
     for (int a = 0; a < N; ++a)
     {
         const int i = nodes[a];
         const double w = data.first[a]*inverse;
-        data.rho += w*rho[i];
-        data.mu += w*mu[i];
-        data.rhoRate += w*rhoRate[i];
+        data.rho += w*nodal.rho[i];
+        rho1 += w*nodal.rhoOld[i];
+        rho2 += w*nodal.rhoOlder[i];
+        data.mu += w*nodal.mu[i];
+        for (int d = 0; d < D; ++d) data.advection[d] += w*nodal.advection[std::size_t(i)*D + d];
+    }
+    TimeScheme t = step.time;
+    const double heaviest = std::max({data.rho, rho1, rho2}), lightest = std::min({data.rho, rho1, rho2});
+    if (heaviest > steepDensity*lightest) t = TimeScheme::bdf(1, step.time.dt, 0);
+    data.c0 = t.c0;
+    data.inertia = 0.5*(t.c0*data.rho - t.c1*rho1 - t.c2*rho2);
+    for (int a = 0; a < N; ++a)
         for (int d = 0; d < D; ++d)
         {
-            data.advection[d] += w*advection[std::size_t(i)*D + d];
-            data.history[a*D + d] = history[std::size_t(i)*D + d];
+            const std::size_t k = std::size_t(nodes[a])*D + d;
+            const double now = t.c1*step.state->u[k], old = t.c2*step.state->uOld[k];
+            data.history[a*D + d] = -(now + old);
+            data.momentumHistory[a*D + d] = -(rho1*now + rho2*old);
         }
-    }
     double speed = 0;
     for (int d = 0; d < D; ++d) speed += data.advection[d]*data.advection[d];
     speed = std::sqrt(speed);

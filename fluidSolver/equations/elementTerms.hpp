@@ -2,13 +2,12 @@
 /// The volume terms of the momentum and continuity equations on one simplex or its fluid part; one function per term.
 ///
 /// Weak form (paper eq 5, momentum convection skew-symmetric, see docs/numerics.md):
-///   (w, rho du/dt) + 1/2 [(w, rho a.grad u) - (rho a.grad w, u)] + 1/2 (drho/dt w, u)          inertia, convection
+///   (w, d(rho u)/dt - 1/2 drho/dt u) + 1/2 [(w, rho a.grad u) - (rho a.grad w, u)]              inertia, convection
 /// + (eps(w), 2 mu eps(u)) - (div w, p) + (q, div u) + (div w, tau_c div u)                      stress, continuity
 /// + sum_e (tau a.grad w + tau grad q/rho, rho (du/dt + a.grad u) + grad p - f) = (w, f)         SUPG, PSPG
 /// P1: gradients are constant; all integrals are exact from V, int N_a and int N_a N_b of the fluid part.
 #pragma once
 
-#include "core/timeScheme.hpp"
 
 namespace flotsam
 {
@@ -23,11 +22,17 @@ struct ElementData
     double first[N];                    ///< int N_a
     double second[N*N];                 ///< int N_a N_b
     const double* gradN;                ///< N*D
-    double rho, mu, rhoRate;            ///< density, viscosity, drho/dt: means over the fluid part
+    double rho, mu;                     ///< density, viscosity at t^(n+1): means over the fluid part
+    double c0;                          ///< du/dt = c0 u - history [1/s]
+    /// d(rho u)/dt - 1/2 drho/dt u = inertia u - momentumHistory with BDF of rho u and rho: inertia =
+    /// 1/2 (c0 rho - c1 rho^n - c2 rho^(n-1)) stays positive when a node turns from water to gas in one step, where
+    /// c0 rho + 1/2 drho/dt does not (BDF1: Guermond & Quartapelle 2000, doi 10.1006/jcph.2000.6609).
+    double inertia;                     ///< [kg/(m^3 s)]
     double tau, tauCont;                ///< [s], [Pa s]
     double advection[D];                ///< a: mean over the fluid part [m/s]
     double force[D];                    ///< f [N/m^3]
     double history[N*D];                ///< nodal -(c1 u^n + c2 u^(n-1)) [m/s^2]
+    double momentumHistory[N*D];        ///< nodal -(c1 rho^n u^n + c2 rho^(n-1) u^(n-1)) [N/m^3]
     double ag[N];                       ///< a . grad N_a, from prepare()
 
     void prepare()
@@ -51,17 +56,17 @@ struct ElementMatrix
 
 /// Inertia, skew-symmetric convection, its SUPG part: the same scalar on every velocity component.
 template<int D>
-inline double scalarMomentum(const ElementData<D>& e, const TimeScheme& t, int a, int b)
+inline double scalarMomentum(const ElementData<D>& e, int a, int b)
 {
     const double mass = e.second[a*(D + 1) + b];
-    return e.rho*t.c0*mass + 0.5*e.rhoRate*mass
+    return e.inertia*mass
          + 0.5*e.rho*(e.ag[b]*e.first[a] - e.ag[a]*e.first[b])
-         + e.tau*e.rho*e.ag[a]*(t.c0*e.first[b] + e.volume*e.ag[b]);
+         + e.tau*e.rho*e.ag[a]*(e.c0*e.first[b] + e.volume*e.ag[b]);
 }
 
 /// Adds every volume term of node pair (a,b) into its block.
 template<int D>
-inline void addPair(const ElementData<D>& e, const TimeScheme& t, int a, int b, double* m)
+inline void addPair(const ElementData<D>& e, int a, int b, double* m)
 {
     constexpr int B = D + 1;
     const double* ga = e.gradN + a*D;
@@ -69,8 +74,8 @@ inline void addPair(const ElementData<D>& e, const TimeScheme& t, int a, int b, 
     double gg = 0;
     for (int d = 0; d < D; ++d) gg += ga[d]*gb[d];
     const double viscous = e.mu*e.volume, gradDiv = e.tauCont*e.volume;
-    const double diagonal = scalarMomentum(e, t, a, b) + viscous*gg;
-    const double pspg = e.tau*(t.c0*e.first[b] + e.volume*e.ag[b]);
+    const double diagonal = scalarMomentum(e, a, b) + viscous*gg;
+    const double pspg = e.tau*(e.c0*e.first[b] + e.volume*e.ag[b]);
     for (int k = 0; k < D; ++k)
     {
         for (int l = 0; l < D; ++l) m[k*B + l] = viscous*ga[l]*gb[k] + gradDiv*ga[k]*gb[l];
@@ -92,10 +97,10 @@ inline void addSource(const ElementData<D>& e, int a, double* rhs)
         double mass = 0, mean = 0;
         for (int b = 0; b < N; ++b)
         {
-            mass += e.second[a*N + b]*e.history[b*D + k];
+            mass += e.second[a*N + b]*e.momentumHistory[b*D + k];
             mean += e.first[b]*e.history[b*D + k];
         }
-        rhs[k] = e.rho*(mass + e.tau*e.ag[a]*mean) + (e.first[a] + e.tau*e.ag[a]*e.volume)*e.force[k];
+        rhs[k] = mass + e.rho*e.tau*e.ag[a]*mean + (e.first[a] + e.tau*e.ag[a]*e.volume)*e.force[k];
         rhs[D] = (k == 0 ? 0 : rhs[D]) + e.tau*ga[k]*(mean + e.volume*e.force[k]/e.rho);
     }
 }

@@ -168,15 +168,10 @@ void FlowEquation::applyConstraints(const std::vector<PatchValues>& values, std:
         for (std::size_t k = 0; k < patches_[p].nodes.size(); ++k)
         {
             const int i = patches_[p].nodes[k];
-            double value = values[p].pressure[k];
-            if (patches_[p].pressure == BoundaryPatch::Pressure::Total)
-            {
-                // Bernoulli where the fluid enters: speed of the last step, inflow known from its sign there
-                double u2 = 0;
-                for (int d = 0; d < dim; ++d) u2 += x[std::size_t(i)*B + d]*x[std::size_t(i)*B + d];
-                value -= 0.5*rho_[i]*u2*(isInflow_.empty() ? 0 : isInflow_[i]);
-            }
-            x[std::size_t(i)*B + dim] = value;
+            // Total: the dynamic part acts implicitly, through the boundary term that the skew-symmetric convection leaves
+            // out (p + rho (u.n) u/2 = p0). Subtracted here from the last velocity it feeds back on itself within the
+            // step and blows up at any time step (measured)
+            x[std::size_t(i)*B + dim] = values[p].pressure[k];
         }
     }
     halo_.update(x, B);
@@ -186,7 +181,6 @@ template<int D>
 void FlowEquation::assembleOpenBoundaries()
 {
     constexpr int B = D + 1;
-    isInflow_.assign(mesh_.nNodes, 0);
     for (std::size_t p = 0; p < patches_.size(); ++p)
     {
         const BoundaryPatch& patch = patches_[p];
@@ -209,12 +203,18 @@ void FlowEquation::assembleOpenBoundaries()
             {
                 const int i = nodes[k];
                 double flux = 0;
-                for (int d = 0; d < D; ++d) flux += advection_[std::size_t(i)*D + d]*v[d]/D;
-                if (flux < 0) isInflow_[i] = 1;
+                for (int d = 0; d < D; ++d) flux += nodal_.advection[std::size_t(i)*D + d]*v[d]/D;
                 if (i >= mesh_.nOwned) continue;
-                // boundary part of the skew-symmetric convection where the fluid leaves (lumped)
+                // boundary part of the skew-symmetric convection where the fluid leaves (lumped); what enters brings no
+                // tangential velocity (pressureInletOutletVelocity)
                 double* m = &system_.matrix[std::size_t(graph_.diagonal[i])*B*B];
-                for (int d = 0; d < D; ++d) m[d*B + d] += 0.5*rho_[i]*std::max(flux, 0.0);
+                double size2 = 0;
+                for (int d = 0; d < D; ++d) size2 += v[d]*v[d];
+                for (int d = 0; d < D; ++d)
+                {
+                    m[d*B + d] += 0.5*nodal_.rho[i]*std::abs(flux);
+                    for (int l = 0; l < D && flux < 0; ++l) m[d*B + l] += 0.5*nodal_.rho[i]*flux*v[d]*v[l]/size2;
+                }
                 // - int p_ext w.n; without a prescribed pressure the unknown's own value acts
                 const double weight = (sum + pressure[k])/(D*(D + 1));
                 for (int d = 0; d < D; ++d) system_.rhs[std::size_t(i)*B + d] -= weight*v[d];

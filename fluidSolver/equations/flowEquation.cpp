@@ -22,31 +22,25 @@ FlowEquation::FlowEquation(const SimplexMesh& mesh, const NodeGraph& graph, cons
     system_.pressureMass.resize(mesh.nOwned);
     system_.dualVolume.resize(mesh.nOwned);
     system_.rhs.resize(std::size_t(mesh.nOwned)*B);
-    for (auto* v : {&rho_, &mu_, &rhoRate_}) v->resize(mesh.nNodes);
-    advection_.resize(std::size_t(mesh.nNodes)*dim);
-    history_.resize(std::size_t(mesh.nNodes)*dim);
+    for (auto* v : {&nodal_.rho, &nodal_.rhoOld, &nodal_.rhoOlder, &nodal_.mu}) v->resize(mesh.nNodes);
+    nodal_.advection.resize(std::size_t(mesh.nNodes)*dim);
     buildConstraints();
 }
 
 void FlowEquation::setMaterials()
 {
     const FlowState& s = *step_.state;
-    const TimeScheme& t = step_.time;
     for (int i = 0; i < mesh_.nNodes; ++i)
     {
         const double alpha = fluid_.isTwoPhase ? s.alpha[i] : 1;
-        rho_[i] = density(fluid_, controls_, alpha);
-        mu_[i] = viscosity(fluid_, controls_, alpha);
-        rhoRate_[i] = fluid_.isTwoPhase
-            ? t.c0*rho_[i] + t.c1*density(fluid_, controls_, s.alphaOld[i]) + t.c2*density(fluid_, controls_, s.alphaOlder[i])
-            : 0;
+        nodal_.rho[i] = density(fluid_, controls_, alpha);
+        nodal_.rhoOld[i] = fluid_.isTwoPhase ? density(fluid_, controls_, s.alphaOld[i]) : nodal_.rho[i];
+        nodal_.rhoOlder[i] = fluid_.isTwoPhase ? density(fluid_, controls_, s.alphaOlder[i]) : nodal_.rho[i];
+        nodal_.mu[i] = viscosity(fluid_, controls_, alpha);
     }
+    const double e = step_.time.extrapolation;
     const std::size_t n = std::size_t(mesh_.nNodes)*mesh_.dim;
-    for (std::size_t k = 0; k < n; ++k)
-    {
-        advection_[k] = (1 + t.extrapolation)*s.u[k] - t.extrapolation*s.uOld[k];
-        history_[k] = -(t.c1*s.u[k] + t.c2*s.uOld[k]);
-    }
+    for (std::size_t k = 0; k < n; ++k) nodal_.advection[k] = (1 + e)*s.u[k] - e*s.uOld[k];
 }
 
 void FlowEquation::assemble(const FlowStepData& step)
@@ -80,7 +74,6 @@ template<int D>
 void FlowEquation::assembleElements()
 {
     constexpr int N = D + 1, B = D + 1;
-    const TimeScheme& t = step_.time;
     ElementData<D> data;
     double block[B*B], source[B];
     for (int e = 0; e < mesh_.nInnerElements; ++e)
@@ -88,7 +81,7 @@ void FlowEquation::assembleElements()
         if (!loadElement<D>(e, data)) continue;
         const int* nodes = &mesh_.elements[std::size_t(e)*N];
         const int* slot = &graph_.slot[std::size_t(e)*N*N];
-        const double schurFactor = data.volume*(data.tau + 1/t.c0)/data.rho;
+        const double schurFactor = data.volume*(data.tau/data.rho + 1/data.inertia);
         for (int a = 0; a < N; ++a)
         {
             if (nodes[a] >= mesh_.nOwned) continue;
@@ -97,7 +90,7 @@ void FlowEquation::assembleElements()
             {
                 const double* gb = data.gradN + b*D;
                 double* m = &system_.matrix[std::size_t(slot[a*N + b])*B*B];
-                addPair(data, t, a, b, block);
+                addPair(data, a, b, block);
                 for (int k = 0; k < B*B; ++k) m[k] += block[k];
                 double gg = 0;
                 for (int d = 0; d < D; ++d) gg += ga[d]*gb[d];
@@ -133,7 +126,7 @@ void FlowEquation::fineScaleT(const std::vector<double>& x, std::vector<double>&
             {
                 const double u = x[std::size_t(nodes[a])*B + d];
                 const double mean = data.first[a]/data.volume;
-                rate += (step_.time.c0*u - data.history[a*D + d])*mean + data.ag[a]*u;
+                rate += (data.c0*u - data.history[a*D + d])*mean + data.ag[a]*u;
                 gradP += data.gradN[a*D + d]*x[std::size_t(nodes[a])*B + D];
             }
             r[d] = -data.tau*(rate + (gradP - data.force[d])/data.rho);

@@ -51,8 +51,6 @@ public:
     FlowSystem& system() { return system_; }
     const FlowSystem& system() const { return system_; }
 
-    const std::vector<double>& rho() const { return rho_; }
-
 private:
     template<int D> void assembleElements();
     template<int D> void assembleWalls();
@@ -61,7 +59,7 @@ private:
     template<int D> void fineScaleT(const std::vector<double>&, std::vector<double>&) const;
     template<int D, class Element> bool loadElement(int e, Element& data) const
     {
-        return loadElementData<D>(e, mesh_, step_, controls_, rho_, mu_, rhoRate_, advection_, history_, data);
+        return loadElementData<D>(e, mesh_, step_, controls_, nodal_, data);
     }
     void setMaterials();
     void buildConstraints();
@@ -75,10 +73,8 @@ private:
 
     FlowStepData step_;
     FlowSystem system_;
-    std::vector<double> rho_, mu_, rhoRate_;    // nNodes
-    std::vector<double> advection_, history_;   // nNodes*dim
+    NodalData nodal_;
     std::vector<NodeConstraint> constraints_;   // all local nodes; directions from the slip patches
-    std::vector<char> isInflow_;                // nNodes: fluid enters through an open patch
 };
 
 } // namespace flotsam

@@ -152,7 +152,7 @@ void FlowEquation::assembleWalls()
                     double ubar = 0;
                     for (int d = 0; d < nDof; ++d) ubar += transport[a][k*nDof + d]*q[d];
                     wallNormalVelocity += group.m1[a]/group.area*ubar*group.normal[k];
-                    slipVelocity += group.m1[a]/group.area*(advection_[std::size_t(i)*D + k] - ubar)*group.normal[k];
+                    slipVelocity += group.m1[a]/group.area*(nodal_.advection[std::size_t(i)*D + k] - ubar)*group.normal[k];
                 }
             }
             const double h = mesh_.h[group.element];

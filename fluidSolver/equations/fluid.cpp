@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace flotsam
 {
@@ -244,6 +245,31 @@ double Fluid::courantRate() const
         largest = std::max(largest, std::sqrt(speed)/mesh_.h[e]);
     }
     return halo_.max(largest);
+}
+
+std::string Fluid::describeFastest() const
+{
+    const int dim = mesh_.dim;
+    double best = -1;
+    int at = -1;
+    for (int i = 0; i < mesh_.nOwned; ++i)
+    {
+        double speed = 0;
+        for (int d = 0; d < dim; ++d) speed += state_.u[std::size_t(i)*dim + d]*state_.u[std::size_t(i)*dim + d];
+        if (speed > best) { best = speed; at = i; }
+    }
+    const double fastest = halo_.max(best);
+    double where[4] = {0, 0, 0, 0};
+    if (best == fastest && at >= 0)
+    {
+        const std::array<double, 3> x = mesh_.spacePoint(at);
+        std::copy(x.begin(), x.end(), where);
+        where[3] = state_.alpha[at];
+    }
+    halo_.sum(where, 4);
+    std::ostringstream text;
+    text << "|u| = " << std::sqrt(fastest) << " m/s at (" << where[0] << ' ' << where[1] << ' ' << where[2] << "), alpha " << where[3];
+    return text.str();
 }
 
 double Fluid::liquidVolume() const

@@ -13,6 +13,7 @@
 #include "equations/interfacePlanes.hpp"
 
 #include <memory>
+#include <string>
 
 namespace flotsam
 {
@@ -46,6 +47,9 @@ public:
 
     /// Largest |u|/h over the active elements [1/s]. Collective.
     double courantRate() const;
+
+    /// The fastest place, for messages: "|u| = 12 m/s at (0.1 0.2 0), alpha 0.01". Collective.
+    std::string describeFastest() const;
 
     /// Liquid volume int alpha over the fluid part [m^3]. Collective.
     double liquidVolume() const;

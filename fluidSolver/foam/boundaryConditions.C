@@ -128,7 +128,7 @@ void distributeFlow(const PatchNodes& patch, const Halo& halo, double flow, cons
     out.assign(weight.size()*dim, 0.0);
     if (flow == 0) return;
     if (outflow < 1e-9*area)
-        FatalErrorInFunction << "Patch " << name << ": a flow rate of " << flow << " m^3/s is given but there is no part of the patch it could "
+        FatalErrorInFunction << "Patch " << name.c_str() << ": a flow rate of " << flow << " m^3/s is given but there is no part of the patch it could "
             << "pass: all nodes belong to walls or hold no liquid." << Foam::nl
             << "    Set the phase field at the patch to 1 below the water level (setFields), or use flowRateInletVelocity." << Foam::exit(Foam::FatalError);
     for (std::size_t i = 0; i < weight.size(); ++i)
@@ -291,7 +291,7 @@ bool isNoSlipWall(const Foam::dictionary& dict, const Foam::polyPatch& patch)
 {
     const Foam::word type = dict.getOrDefault<Foam::word>("type", "");
     if (type == "noSlip" || type == "movingWallVelocity") return true;
-    if (type != "fixedValue" || patch.type() != "wall") return false;
+    if (type != "fixedValue") return false;
     const Foam::vectorField values("value", dict, patch.size());
     return std::all_of(values.begin(), values.end(), [](const vector& v) { return v == vector::zero; });
 }

@@ -93,7 +93,7 @@ std::vector<PatchSource> patchSources(const Foam::polyMesh& mesh, const MeshAdap
     for (const MeshPatch& meshPatch : adapter.mesh.patches)
     {
         const Foam::label id = mesh.boundaryMesh().findPatchID(meshPatch.name);
-        if (id < 0) FatalErrorInFunction << "No patch " << meshPatch.name << " in the mesh." << Foam::exit(Foam::FatalError);
+        if (id < 0) FatalErrorInFunction << "No patch " << meshPatch.name.c_str() << " in the mesh." << Foam::exit(Foam::FatalError);
         sources.push_back({&mesh.boundaryMesh()[id], std::make_shared<PatchNodes>(makePatchNodes(adapter.mesh, halo, meshPatch))});
     }
     return sources;

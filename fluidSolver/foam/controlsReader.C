@@ -165,6 +165,18 @@ void readGravity(const Foam::Time& runTime, CaseControls& controls)
     controls.gravityPotentialRef = -Foam::mag(g)*hRef;
 }
 
+/// Files that change what interFoam solves and that we have no counterpart for: not even an existing case may lose them silently.
+void checkOtherModels(const Foam::Time& runTime)
+{
+    const Foam::word folders[] = {runTime.constant(), runTime.system()};
+    for (const char* name : {"fvOptions", "MRFProperties", "dynamicMeshDict"})
+        for (const Foam::word& folder : folders)
+        {
+            if (!Foam::isFile(runTime.globalPath()/folder/name)) continue;
+            checkUnused(name, Foam::IOdictionary(inputFile(runTime, name, folder)));
+        }
+}
+
 double readReferencePressure(const Foam::dictionary& fvSolution)
 {
     for (const char* algorithm : {"PIMPLE", "PISO", "SIMPLE"})
@@ -173,6 +185,21 @@ double readReferencePressure(const Foam::dictionary& fvSolution)
 }
 
 } // namespace
+
+void checkUnused(const std::string& file, const Foam::dictionary& dict)
+{
+    if (file == "dynamicMeshDict")
+    {
+        const Foam::word type = dict.getOrDefault<Foam::word>("dynamicFvMesh", "staticFvMesh");
+        if (type != "staticFvMesh")
+            failIn(dict, text("dynamicFvMesh ", type, " is not available: meshes are fixed; allowed: staticFvMesh.\n    Moving structures are described in "
+                "constant/bodies (motion), on a fixed mesh."));
+        return;
+    }
+    for (const Foam::entry& e : dict)
+        if (e.isDict() && e.dict().getOrDefault<bool>("active", true))
+            failIn(e.dict(), text(file, " is not available: the source or zone '", std::string(e.keyword()), "' would be ignored.\n    Remove it, or set 'active no;'."));
+}
 
 void readTransport(const Foam::dictionary& transport, CaseControls& controls)
 {
@@ -225,6 +252,7 @@ CaseControls readCaseControls(const Foam::Time& runTime)
     if (exists(runTime, "turbulenceProperties"))
         checkLaminar(Foam::IOdictionary(inputFile(runTime, "turbulenceProperties", runTime.constant())));
     readGravity(runTime, controls);
+    checkOtherModels(runTime);
     const Foam::IOdictionary fvSolution(inputFile(runTime, "fvSolution", runTime.system()));
     controls.numerics = readNumerics(fvSolution);
     controls.pRefValue = readReferencePressure(fvSolution);

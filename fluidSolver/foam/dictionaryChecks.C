@@ -11,7 +11,7 @@ namespace flotsam
 
 void failIn(const Foam::dictionary& dict, const std::string& message)
 {
-    FatalIOErrorInFunction(dict) << message << Foam::exit(Foam::FatalIOError);
+    FatalIOErrorInFunction(dict) << message.c_str() << Foam::nl << Foam::exit(Foam::FatalIOError);
     throw std::logic_error(message); // never reached: exit() ends the run or throws
 }
 

@@ -166,7 +166,7 @@ void BodyHistory::Implementation::checkMembers(const Hdf5File& out) const
     }
 }
 
-/// False when nothing of the file would remain: it belongs to an earlier run and is replaced.
+/// False when the file holds nothing earlier than the start: it belongs to an earlier run and is replaced.
 bool BodyHistory::Implementation::continueFrom(double startTime)
 {
     Hdf5File out(file, Hdf5File::Mode::ReadWrite);
@@ -175,10 +175,10 @@ bool BodyHistory::Implementation::continueFrom(double startTime)
         throw std::runtime_error(file + ": not a body history of this program; rename or remove it");
     }
     // the start time may have been through a text of 12 digits
-    const double limit = startTime + 1e-11 * std::abs(startTime);
+    const double tolerance = 1e-11 * std::abs(startTime), limit = startTime + tolerance;
     const std::vector<double> oldTimes = out.readArray("/run/time");
+    if (oldTimes.empty() || oldTimes.front() >= startTime - tolerance) return false;
     std::size_t kept = std::upper_bound(oldTimes.begin(), oldTimes.end(), limit) - oldTimes.begin();
-    if (kept == 0) return false;
     checkMembers(out);
 
     std::vector<std::string> tables;
@@ -284,6 +284,7 @@ void BodyHistory::append(double time, const std::vector<BodyRecord>& records,
     const double missing = std::numeric_limits<double>::quiet_NaN();
     for (const auto& scalar : scalars)
     {
+        if (scalar.first == "time") throw std::logic_error(my.file + ": \"time\" is taken, give the scalar another name");
         auto& values = my.scalars[scalar.first];
         values.resize(n - 1, missing); // new: earlier records of this block did not have it
         values.push_back(scalar.second);

@@ -38,7 +38,7 @@ struct HistoryMember
 class BodyHistory
 {
 public:
-    /// Creates `file`, or continues it when it holds records of `startTime` or earlier (restart): later ones are cut off.
+    /// Creates `file`, or continues it when it holds records earlier than `startTime` (restart): later ones are cut off.
     /// Throws when a file to be continued has other members, or is damaged.
     BodyHistory(const std::string& file, const std::vector<HistoryMember>& members, double startTime);
     ~BodyHistory();

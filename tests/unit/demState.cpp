@@ -44,25 +44,25 @@ TEST_CASE("restore continues to the same bits, in this engine and in a new one")
     for (const bool hasMeshes : {false, true})
     {
         CAPTURE(hasMeshes);
-        const DemSetup setup = heap(8, hasMeshes);
+        const DemSetup setup = heap(6, hasMeshes);
         LiggghtsEngine engine(setup);
         engine.setLoads(weights(setup));
-        advance(engine, 150, 2e-3);
+        advance(engine, 100, 2e-3);
         REQUIRE(engine.hasContact());
 
         const DemState state = engine.save();
-        advance(engine, 75, 2e-3); // some 10^4 sub-steps
+        advance(engine, 50, 2e-3); // some 10^4 sub-steps
         const auto first = numbersOf(engine);
 
         engine.restore(state);
         CHECK(engine.save().data == state.data);
-        advance(engine, 75, 2e-3);
+        advance(engine, 50, 2e-3);
         CHECK(numbersOf(engine) == first);
 
         LiggghtsEngine other(setup);
         other.restore(state);
         other.setLoads(weights(setup));
-        advance(other, 75, 2e-3);
+        advance(other, 50, 2e-3);
         CHECK(numbersOf(other) == first);
     }
 }
@@ -74,7 +74,7 @@ TEST_CASE("a predictor step leaves no trace")
     std::vector<Load> wild = weights(setup);
     for (Load& load : wild)
         load = {Vec3(0.5, -0.3, 1.0), Vec3(1e-3, 0, 2e-3)};
-    for (int i = 0; i < 200; ++i)
+    for (int i = 0; i < 60; ++i)
     {
         plain.setLoads(weights(setup));
         plain.advance(1e-3);

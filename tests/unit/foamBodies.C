@@ -257,9 +257,10 @@ TEST_CASE("one message for every mistake")
 TEST_CASE("an open STL is refused with its file")
 {
     Scene s;
-    std::filesystem::create_directories(s.foam.folder() + "/constant/triSurface");
-    std::ofstream(s.foam.folder() + "/constant/triSurface/open.stl")
+    if (s.halo.rank() == 0) std::filesystem::create_directories(s.foam.folder() + "/constant/triSurface");
+    if (s.halo.rank() == 0) std::ofstream(s.foam.folder() + "/constant/triSurface/open.stl")
         << "solid open\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid open\n";
+    MPI_Barrier(MPI_COMM_WORLD);
     CHECK(has(s.message(bodies("shape { type stl; file \"open.stl\"; } density 500;")), "open.stl"));
     CHECK(has(s.message(bodies("shape { type stl; file \"absent.stl\"; } density 500;")), "absent.stl"));
 }

@@ -143,6 +143,9 @@ TEST_CASE("a whole case")
     CHECK_FALSE(c.numerics.dualCellTransport);
     CHECK(c.time.maxCo == 0.3);
     CHECK(c.pRefValue == 5);
+    CHECK(has(messageOf([] { checkUnused("dynamicMeshDict", parse("dynamicFvMesh dynamicMotionSolverFvMesh;")); }), "allowed: staticFvMesh"));
+    CHECK(has(messageOf([] { checkUnused("fvOptions", parse("porous { type explicitPorositySource; }")); }), "fvOptions is not available"));
+    CHECK(messageOf([] { checkUnused("fvOptions", parse("porous { active no; }")); }).empty());
     scene.edit({"constant/turbulenceProperties", "laminar", "LES"});
     CHECK(has(messageOf([&] { readCaseControls(scene.time()); }), "LES is not modelled"));
 }

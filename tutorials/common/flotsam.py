@@ -341,3 +341,17 @@ def captured(h, inside, names=None):
     if not names:
         return np.zeros(len(h.time))
     return np.mean([np.asarray(inside(h["bodies/" + name].position), dtype=float) for name in names], axis=0)
+
+
+# --- report -----------------------------------------------------------------------------------------------------------
+
+def writeSummary(file, title, rows, text=""):
+    """Markdown page: rows of (what, value, unit, reference or ""). Numbers are written with four digits."""
+    def shown(value):
+        return f"{value:.4g}" if isinstance(value, (float, np.floating)) else str(value)
+    lines = [f"# {title}", "", "| quantity | value | unit | reference |", "|---|---|---|---|"]
+    lines += ["| " + " | ".join(shown(entry) for entry in row) + " |" for row in rows]
+    if text:
+        lines += ["", text]
+    with open(file, "w", encoding="utf-8") as out:
+        out.write("\n".join(lines) + "\n")

@@ -16,7 +16,7 @@ def scaledTime(t):
 
 def experiment():
     """Scaled time, front over column width."""
-    return np.loadtxt("reference/front.csv", delimiter=",", comments="#", skiprows=4, unpack=True)
+    return np.loadtxt("reference/front.csv", delimiter=",", unpack=True)
 
 
 def computed(case="."):

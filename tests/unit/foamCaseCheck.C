@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The report of a dry run: counts, what is skipped, an estimate.
+#include "foam/boundaryReader.H"
+#include "foam/caseCheck.H"
+#include "support/foamCase.H"
+
+#include <doctest/doctest.h>
+
+#include <iostream>
+#include <mpi.h>
+#include <sstream>
+
+using namespace flotsam;
+
+TEST_CASE("report of a channel with and without bodies")
+{
+    FoamCase foam("foamChannel");
+    const CaseControls controls = readCaseControls(foam.time());
+    const MeshAdapter adapter = makeSimplexMesh(foam.mesh(), MPI_COMM_WORLD);
+    const Halo halo(adapter.mesh, MPI_COMM_WORLD);
+    const auto boundary = readBoundary(foam.mesh(), adapter, halo, controls);
+    SceneCounts scene;
+
+    std::ostringstream report;
+    const auto capture = [&](const SceneCounts& counts)
+    {
+        report.str("");
+        auto* screen = std::cout.rdbuf(report.rdbuf());
+        printCaseCheck(controls, adapter, halo, boundary, counts);
+        std::cout.rdbuf(screen);
+        return report.str();
+    };
+    const std::string empty = capture(scene);
+    CHECK(empty.find("2D triangles, 231 nodes, 400 elements") != std::string::npos);
+    CHECK(empty.find("DEM engine not opened") != std::string::npos);
+    CHECK(empty.find("floor: velocity no-slip") != std::string::npos);
+    CHECK(empty.find("memory") != std::string::npos);
+    scene.bodies = 20;
+    scene.thinnestBody = 0.02;
+    CHECK(capture(scene).find("refine around the bodies") != std::string::npos);
+}
