@@ -21,6 +21,19 @@ bool meets(const SurfaceSphere& s, const Box& box)
 
 struct TriangleBox { Vec3 lower, upper; };
 
+/// Upper bound of the angle [rad] a tumbling body turns through. The spin cannot exceed what its energy allows about
+/// the axis of least inertia, and it changes no faster than I dw/dt = M - w x L.
+double largestTurn(const BodyState& state, const Load& load, double leastInertia, double duration)
+{
+    const double moment = load.moment.norm();
+    const double twiceEnergy = std::max(0.0, state.motion.angularVelocity.dot(state.angularMomentum));
+    const double largestSpin = std::sqrt(twiceEnergy / leastInertia) + moment * duration / leastInertia;
+    const double largestMomentum = state.angularMomentum.norm() + moment * duration;
+    const double change = (moment + largestSpin * largestMomentum) / leastInertia;
+    return std::min(largestSpin * duration,
+                    state.motion.angularVelocity.norm() * duration + 0.5 * change * duration * duration);
+}
+
 } // namespace
 
 ReachCheck::ReachCheck(const std::vector<BodyDefinition>& bodies, const std::vector<WallDefinition>& walls)
@@ -36,10 +49,8 @@ void ReachCheck::move(size_t body, const BodyState& state, const Load& load, boo
     double shift = 0, turn = 0;
     if (!isHeld)
     {
-        const double half = 0.5 * duration * duration, smallest = definition.principalInertia.minCoeff();
-        shift = state.motion.velocity.norm() * duration + load.force.norm() / definition.mass * half;
-        // a tumbling body never spins faster than all its angular momentum about the axis of least inertia
-        turn = (state.angularMomentum.norm() * duration + load.moment.norm() * half) / smallest;
+        shift = state.motion.velocity.norm() * duration + 0.5 * load.force.norm() / definition.mass * duration * duration;
+        turn = largestTurn(state, load, definition.principalInertia.minCoeff(), duration);
     }
     Moving& m = moving_[body];
     m.lower.setConstant(1e300);

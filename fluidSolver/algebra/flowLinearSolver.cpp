@@ -229,13 +229,13 @@ struct FlowLinearSolver::Implementation
                 viscousPressure[i] = 0;
                 continue;
             }
-            const double* a = &system->matrix[std::size_t(graph.diagonal[i])*B*B];
+            const double* a = &system->matrix.velocity[std::size_t(graph.diagonal[i])*dim*dim];
             double trace = 0;
-            for (int r = 0; r < dim; ++r) trace += a[r*B + r] + ghost[i];
+            for (int r = 0; r < dim; ++r) trace += a[r*dim + r] + ghost[i];
             if (dim == 2) invert<2>(a, ghost[i], inverse); else invert<3>(a, ghost[i], inverse);
             std::fill(s, s + dim, 1/std::sqrt(trace/dim));
             // PSPG and ghost terms act beside the viscous part and bound its inverse where the fluid part is a sliver
-            viscousPressure[i] = 1/(system->pressureMass[i] + a[B*B - 1] + ghostPressure[i]);
+            viscousPressure[i] = 1/(system->pressureMass[i] + system->matrix.pressure[graph.diagonal[i]] + ghostPressure[i]);
             s[dim] = 1/std::sqrt(schurDiagonal(i) + ghostPressure[i]);
         }
     }
@@ -244,7 +244,7 @@ struct FlowLinearSolver::Implementation
     {
         Eigen::Matrix<double, D, D, Eigen::RowMajor> m;
         for (int r = 0; r < D; ++r)
-            for (int c = 0; c < D; ++c) m(r, c) = a[r*B + c] + (r == c ? ghost : 0);
+            for (int c = 0; c < D; ++c) m(r, c) = a[r*D + c] + (r == c ? ghost : 0);
         Eigen::Map<Eigen::Matrix<double, D, D, Eigen::RowMajor>> result(inverse);
         result = m.inverse();
     }

@@ -11,16 +11,22 @@ void FlowOperator::fluidRowsT(const double* x, const double* q, double* y) const
 {
     constexpr int B = D + 1;
     const int* column = graph_.column.data();
-    const double* values = s_.matrix.data();
     for (int i = 0; i < nOwned_; ++i)
     {
         double sum[B] = {};
         for (int k = graph_.rowStart[i]; k < graph_.rowStart[i + 1]; ++k)
         {
-            const double* a = values + std::size_t(k)*B*B;
+            const double* K = &s_.matrix.velocity[std::size_t(k)*D*D];
+            const double* G = &s_.matrix.gradient[std::size_t(k)*D];
+            const double* W = &s_.matrix.divergence[std::size_t(k)*D];
             const double* v = x + std::size_t(column[k])*B;
-            for (int r = 0; r < B; ++r)
-                for (int c = 0; c < B; ++c) sum[r] += a[r*B + c]*v[c];
+            for (int r = 0; r < D; ++r)
+            {
+                for (int c = 0; c < D; ++c) sum[r] += K[r*D + c]*v[c];
+                sum[r] += G[r]*v[D];
+                sum[D] += W[r]*v[r];
+            }
+            sum[D] += s_.matrix.pressure[k]*v[D];
         }
         for (int r = 0; r < B; ++r) y[i*B + r] = sum[r];
     }
@@ -61,13 +67,12 @@ void FlowOperator::divergenceT(const double* x, const double* q, double* y) cons
 {
     constexpr int B = D + 1;
     const int* column = graph_.column.data();
-    const double* values = s_.matrix.data();
     for (int i = 0; i < nOwned_; ++i)
     {
         double sum = 0;
         for (int k = graph_.rowStart[i]; k < graph_.rowStart[i + 1]; ++k)
         {
-            const double* a = values + std::size_t(k)*B*B + D*B;
+            const double* a = &s_.matrix.divergence[std::size_t(k)*D];
             const double* v = x + std::size_t(column[k])*B;
             for (int c = 0; c < D; ++c) sum += a[c]*v[c];
         }
@@ -91,15 +96,14 @@ void FlowOperator::gradientT(const double* p, double* y) const
 {
     constexpr int B = D + 1;
     const int* column = graph_.column.data();
-    const double* values = s_.matrix.data();
     for (int i = 0; i < nOwned_; ++i)
     {
         double sum[D] = {};
         for (int k = graph_.rowStart[i]; k < graph_.rowStart[i + 1]; ++k)
         {
-            const double* a = values + std::size_t(k)*B*B + D;
+            const double* a = &s_.matrix.gradient[std::size_t(k)*D];
             const double v = p[column[k]];
-            for (int c = 0; c < D; ++c) sum[c] += a[c*B]*v;
+            for (int c = 0; c < D; ++c) sum[c] += a[c]*v;
         }
         for (int c = 0; c < D; ++c) y[i*B + c] = sum[c];
         y[i*B + D] = 0;

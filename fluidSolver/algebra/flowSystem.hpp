@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The linear system of one step: fluid unknowns (u, p) at the nodes and velocities of the solids.
 ///
-/// Fluid block: blocks of (dim+1)^2, row-major, on the node graph (owned rows, complete). The couplings that leave the
+/// Fluid block: on the node graph (owned rows, complete). The couplings that leave the
 /// graph or are of low rank are kept apart: ghost penalty faces (rank one each) and the solids' rows and columns.
 #pragma once
 
+#include "algebra/blockMatrix.hpp"
 #include "core/nodeGraph.hpp"
 
 #include <vector>
@@ -46,7 +47,7 @@ struct NodeConstraint
 struct FlowSystem
 {
     int dim = 3, nDof = 6;
-    std::vector<double> matrix;     ///< graph.column.size()*(dim+1)^2
+    BlockMatrix matrix;             ///< graph.column.size() entries
     std::vector<double> schur;      ///< graph.column.size(): scalar pressure Schur approximation
     std::vector<double> pressureMass; ///< nOwned: sum of V/(mu + tau_c), the viscous part of the Schur complement
     std::vector<double> rhs;        ///< nOwned*(dim+1)

@@ -207,21 +207,21 @@ void FlowEquation::assembleOpenBoundaries()
                 if (i >= mesh_.nOwned) continue;
                 // boundary part of the skew-symmetric convection where the fluid leaves (lumped); what enters brings no
                 // tangential velocity (pressureInletOutletVelocity)
-                double* m = &system_.matrix[std::size_t(graph_.diagonal[i])*B*B];
+                double* m = &system_.matrix.velocity[std::size_t(graph_.diagonal[i])*D*D];
                 double size2 = 0;
                 for (int d = 0; d < D; ++d) size2 += v[d]*v[d];
                 for (int d = 0; d < D; ++d)
                 {
-                    m[d*B + d] += 0.5*nodal_.rho[i]*std::abs(flux);
-                    for (int l = 0; l < D && flux < 0; ++l) m[d*B + l] += 0.5*nodal_.rho[i]*flux*v[d]*v[l]/size2;
+                    m[d*D + d] += 0.5*nodal_.rho[i]*std::abs(flux);
+                    for (int l = 0; l < D && flux < 0; ++l) m[d*D + l] += 0.5*nodal_.rho[i]*flux*v[d]*v[l]/size2;
                 }
                 // - int p_ext w.n; without a prescribed pressure the unknown's own value acts
                 const double weight = (sum + pressure[k])/(D*(D + 1));
                 for (int d = 0; d < D; ++d) system_.rhs[std::size_t(i)*B + d] -= weight*v[d];
                 for (int l = 0; l < D && !hasPressure; ++l)
                 {
-                    double* block = &system_.matrix[std::size_t(graph_.find(i, nodes[l]))*B*B];
-                    for (int d = 0; d < D; ++d) block[d*B + D] += (k == l ? 2.0 : 1.0)/(D*(D + 1))*v[d];
+                    double* column = &system_.matrix.gradient[std::size_t(graph_.find(i, nodes[l]))*D];
+                    for (int d = 0; d < D; ++d) column[d] += (k == l ? 2.0 : 1.0)/(D*(D + 1))*v[d];
                 }
             }
         }

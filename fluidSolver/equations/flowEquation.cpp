@@ -14,14 +14,14 @@ FlowEquation::FlowEquation(const SimplexMesh& mesh, const NodeGraph& graph, cons
     const NumericsControls& controls, const std::vector<BoundaryPatch>& patches)
 :   mesh_(mesh), graph_(graph), halo_(halo), fluid_(fluid), controls_(controls), patches_(patches)
 {
-    const int dim = mesh.dim, B = dim + 1;
+    const int dim = mesh.dim;
     system_.dim = dim;
     system_.nDof = dim == 2 ? 3 : 6;
-    system_.matrix.resize(graph.column.size()*B*B);
+    system_.matrix.resize(graph.column.size(), dim);
     system_.schur.resize(graph.column.size());
     system_.pressureMass.resize(mesh.nOwned);
     system_.dualVolume.resize(mesh.nOwned);
-    system_.rhs.resize(std::size_t(mesh.nOwned)*B);
+    system_.rhs.resize(std::size_t(mesh.nOwned)*(dim + 1));
     for (auto* v : {&nodal_.rho, &nodal_.rhoOld, &nodal_.rhoOlder, &nodal_.mu}) v->resize(mesh.nNodes);
     nodal_.advection.resize(std::size_t(mesh.nNodes)*dim);
     buildConstraints();
@@ -47,7 +47,7 @@ void FlowEquation::assemble(const FlowStepData& step)
 {
     step_ = step;
     setMaterials();
-    std::fill(system_.matrix.begin(), system_.matrix.end(), 0.0);
+    system_.matrix.setZero();
     std::fill(system_.schur.begin(), system_.schur.end(), 0.0);
     std::fill(system_.rhs.begin(), system_.rhs.end(), 0.0);
     std::fill(system_.pressureMass.begin(), system_.pressureMass.end(), 0.0);
@@ -89,9 +89,8 @@ void FlowEquation::assembleElements()
             for (int b = 0; b < N; ++b)
             {
                 const double* gb = data.gradN + b*D;
-                double* m = &system_.matrix[std::size_t(slot[a*N + b])*B*B];
                 addPair(data, a, b, block);
-                for (int k = 0; k < B*B; ++k) m[k] += block[k];
+                system_.matrix.add<D>(slot[a*N + b], block);
                 double gg = 0;
                 for (int d = 0; d < D; ++d) gg += ga[d]*gb[d];
                 system_.schur[slot[a*N + b]] += schurFactor*gg;

@@ -175,9 +175,9 @@ void FlowEquation::assembleWalls()
                     wallBlock<D>(c, group.normal, data.gradN, group.m1[a], group.m1[b], m2, a, b, m);
                     if (isInner && nodes[a] < mesh_.nOwned)
                     {
-                        double* A = &system_.matrix[std::size_t(graph_.slot[(std::size_t(group.element)*N + a)*N + b])*B*B];
-                        for (int k = 0; k < B*B; ++k) A[k] += m[k];
-                        for (int k = 0; k < D; ++k) A[k*B + k] += c.convection*m2;
+                        const std::size_t entry = graph_.slot[(std::size_t(group.element)*N + a)*N + b];
+                        system_.matrix.add<D>(entry, m);
+                        for (int k = 0; k < D; ++k) system_.matrix.velocity[entry*D*D + k*D + k] += c.convection*m2;
                         double* column = &coupling.column[std::size_t(place[a])*B*nDof];
                         for (int r = 0; r < B; ++r)
                             for (int k = 0; k < D; ++k)

@@ -12,6 +12,14 @@
 namespace flotsam
 {
 
+namespace
+{
+
+constexpr double gasOnly = 0.01;    // largest alpha of an element that counts as gas for the Courant number
+constexpr double gasShare = 0.25;   // of its Courant number: the implicit scheme is stable, and the gas is not what is asked for
+
+} // namespace
+
 Fluid::Fluid(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& fluid, const NumericsControls& controls,
     const std::vector<BoundaryPatch>& patches)
 :   mesh_(mesh), halo_(halo), graph_(mesh), fluid_(fluid), controls_(controls), patches_(patches), values_(patches.size()),
@@ -238,11 +246,12 @@ double Fluid::courantRate() const
     for (int e = 0; e < mesh_.nInnerElements; ++e)
     {
         if (cover_ && cover_->state[e] == ElementState::Solid) continue;
-        double u[3] = {0, 0, 0}, speed = 0;
+        double u[3] = {0, 0, 0}, speed = 0, alpha = 0;
+        for (int a = 0; a < n; ++a) alpha = std::max(alpha, state_.alpha[mesh_.elements[std::size_t(e)*n + a]]);
         for (int a = 0; a < n; ++a)
             for (int d = 0; d < dim; ++d) u[d] += state_.u[std::size_t(mesh_.elements[std::size_t(e)*n + a])*dim + d]/n;
         for (int d = 0; d < dim; ++d) speed += u[d]*u[d];
-        largest = std::max(largest, std::sqrt(speed)/mesh_.h[e]);
+        largest = std::max(largest, std::sqrt(speed)/mesh_.h[e]*(alpha < gasOnly ? gasShare : 1));
     }
     return halo_.max(largest);
 }

@@ -45,7 +45,7 @@ public:
     /// Liquid share of every solid's surface, 0..1. Collective.
     std::vector<double> wetFractions() const;
 
-    /// Largest |u|/h over the active elements [1/s]. Collective.
+    /// Largest |u|/h over the active elements, a quarter of it in pure gas [1/s]. Collective.
     double courantRate() const;
 
     /// The fastest place, for messages: "|u| = 12 m/s at (0.1 0.2 0), alpha 0.01". Collective.

@@ -241,8 +241,9 @@ PhaseCondition naturalPhase(const ConditionInput&) { return {Phase::Natural, {}}
 
 PhaseCondition inflowPhase(const ConditionInput& in, const char* keyword)
 {
-    for (double a : faceScalars(in, keyword)) checkRange(in.dict, keyword, a, {0, 1}, "A phase fraction: 1 liquid, 0 gas.");
-    return {Phase::Inflow, nodalScalars(in, keyword)};
+    const auto values = faceScalars(in, keyword); // read once: OpenFOAM hands a list of values out only once
+    for (double a : values) checkRange(in.dict, keyword, a, {0, 1}, "A phase fraction: 1 liquid, 0 gas.");
+    return {Phase::Inflow, constantValues(averageToNodes(in.patch, in.adapter, in.halo, in.nodes->nodes, values, 1))};
 }
 PhaseCondition fixedPhase(const ConditionInput& in) { return inflowPhase(in, "value"); }
 PhaseCondition inletOutletPhase(const ConditionInput& in) { return inflowPhase(in, "inletValue"); }
@@ -292,8 +293,13 @@ bool isNoSlipWall(const Foam::dictionary& dict, const Foam::polyPatch& patch)
     const Foam::word type = dict.getOrDefault<Foam::word>("type", "");
     if (type == "noSlip" || type == "movingWallVelocity") return true;
     if (type != "fixedValue") return false;
-    const Foam::vectorField values("value", dict, patch.size());
-    return std::all_of(values.begin(), values.end(), [](const vector& v) { return v == vector::zero; });
+    if (patch.empty()) return true; // this rank has no say
+    // looked at without reading the field: OpenFOAM hands a list of values out only once
+    Foam::ITstream& value = dict.lookup("value");
+    if (value.size() < 2 || !value[0].isWord() || value[0].wordToken() != "uniform") return false;
+    value.rewind();
+    const Foam::token uniform(value);
+    return vector(value) == vector::zero;
 }
 
 double gravityPotential(const CaseControls& controls, const SimplexMesh& mesh, int node)

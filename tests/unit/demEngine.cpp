@@ -82,6 +82,15 @@ TEST_CASE("large steps while nothing is near, contact steps otherwise")
     CHECK(engine.subSteps() == 10);
 }
 
+TEST_CASE("slender bars that turn a centimetre apart are not taken for touching")
+{
+    DemSetup setup = scene({debris(Vec3::Zero()), debris(Vec3(0, 0, 0.03))}, {});
+    setup.bodies[0].motion = {Vec3(0.5, 0, 0), Vec3(0, 0, 3)};
+    LiggghtsEngine engine(setup);
+    engine.advance(1e-3, 1e-3);
+    CHECK(engine.subSteps() == 1);
+}
+
 TEST_CASE("held bodies stay, carry their contact load, and fall when released")
 {
     DemSetup setup = scene({ball(0.01, 0.1, Vec3(0, 0, 0.05)), ball(0.01, 0.1, Vec3(0, 0, 0.0699))}, {});

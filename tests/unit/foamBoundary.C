@@ -188,6 +188,22 @@ TEST_CASE("uniform values come back unchanged; a list of face values is averaged
     }
 }
 
+TEST_CASE("a list of phase values; walls given as fixedValue zero")
+{
+    if (!isSerial()) return;
+    Scene s(Edits{{"0/alpha.water", "type variableHeightFlowRate; lowerBound 0.1; upperBound 0.9;", "type fixedValue; value nonuniform List<scalar> 10(1 1 1 1 1 0 0 0 0 0); //"},
+        {"0/alpha.water", "// value uniform 0; }", "\n}"}, {"0/U", "floor { type noSlip; }", "floor { type fixedValue; value uniform (0 0 0); }"}});
+    CHECK(s.patch("floor").isNoSlipWall);
+    CHECK_FALSE(s.patch("inlet").isNoSlipWall);
+    const auto& inlet = s.patch("inlet");
+    const PatchValues v = s.values("inlet");
+    for (std::size_t i = 0; i < inlet.nodes.size(); ++i)
+    {
+        const double y = s.adapter.mesh.x[2*inlet.nodes[i] + 1];
+        CHECK(v.alpha[i] == doctest::Approx(y < 0.45 ? 1 : y > 0.55 ? 0 : 0.5));
+    }
+}
+
 TEST_CASE("time functions")
 {
     Scene s(Edits{{"0/U", inletU, "type uniformFixedValue; uniformValue table ((0 (0 0 0)) (2 (4 0 0))); value uniform (0 0 0);"}});
