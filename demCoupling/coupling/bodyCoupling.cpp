@@ -145,9 +145,19 @@ void BodyCoupling::begin(double time, double dt)
         saved_ = engine_->save();
         engine_->setHeld(isHeld_);
     });
-    runEngine(dt, lastLoads_);
-    predicted_ = result_;
-    contact_ = newContact_;
+    for (int b = 0; b < nBodies(); ++b) predicted_[b] = isHeld_[b] ? states_[b] : drifted(b);
+}
+
+/// The body after the step if the last step's net force went on. Its pose is what the fluid is cut with.
+BodyState BodyCoupling::drifted(int b) const
+{
+    BodyState s = states_[b];
+    const BodyDefinition& body = setup_.bodies[b];
+    const Vec3 acceleration = (lastLoads_[b].force + contact_[b].force)/body.mass;
+    s.pose.position += dt_*(s.motion.velocity + 0.5*dt_*acceleration);
+    const Vec3 turn = dt_*s.motion.angularVelocity;
+    if (turn.norm() > 0) s.pose.orientation = (Eigen::Quaterniond(Eigen::AngleAxisd(turn.norm(), turn.normalized()))*s.pose.orientation).normalized();
+    return s;
 }
 
 /// Contact loads as the velocity changes they make in one step [m/s].

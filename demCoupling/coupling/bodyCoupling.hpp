@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Predict - solve - correct between contact (microseconds, LIGGGHTS) and flow (milliseconds, one linear system).
 ///
-///   begin(dt)      DEM state saved; DEM sub-steps with the last load: predicted poses and contact loads
+///   begin(dt)      DEM state saved; poses predicted from the last velocities and net forces, contact loads from the last step
 ///   [fluid solved with contactLoads() on the bodies' rows]
 ///   correct(load)  DEM restored and run with the new load; true when the contact loads it gives are the ones the fluid was
 ///                  solved with. Otherwise contactLoads() holds the next guess: solve again
 ///   accept() or reject()
 ///
-/// Without contact in prediction and correction the first correct() returns true: exactly one solve a step.
+/// Without contact before and after the step the first correct() returns true: exactly one solve a step. A prediction by DEM
+/// sub-steps gave no better contact loads and cost one DEM run in three (docs/numerics.md).
 /// The contact is the fixed point J = G(J); its contraction is (added mass)/(mass + added mass), 0.5 to 0.7 for
 /// driftwood, hence Anderson acceleration. Rank 0 owns the engine; every rank holds the same states.
 #pragma once
@@ -65,6 +66,7 @@ public:
 private:
     void runEngine(double duration, const std::vector<Load>& loads);
     void shareResults();
+    BodyState drifted(int body) const;
     void guarded(const std::function<void()>& work) const;
     Eigen::VectorXd scaled(const std::vector<Load>& loads) const;
     std::vector<Load> unscaled(const Eigen::VectorXd& values) const;

@@ -2,6 +2,7 @@
 #include "demCoupling/foam/contactReader.H"
 #include "foam/dictionaryChecks.H"
 
+#include "Switch.H"
 #include "wordList.H"
 
 #include <algorithm>
@@ -27,10 +28,12 @@ std::vector<std::string> materialNames(const Foam::dictionary& bodies)
 /// What the dictionary gives; the rest as `base`.
 ContactLaw readLaw(const Foam::dictionary& dict, ContactLaw base)
 {
-    checkKeywords(dict, {"stiffness", "restitution", "frictionAngle"});
+    checkKeywords(dict, {"stiffness", "restitution", "frictionAngle", "perBody", "flatRestitution"});
     base.stiffness = readNumberOr(dict, "stiffness", base.stiffness, positive, "Spring constant of a touching sphere [N/m].");
     base.restitution = readNumberOr(dict, "restitution", base.restitution, {0.01, 1}, "0.2 for wet wood; 1: no energy is lost.");
     base.frictionAngleDeg = readNumberOr(dict, "frictionAngle", base.frictionAngleDeg, {0, 85}, "Degrees; 30 is a friction coefficient of 0.58.");
+    base.perBody = dict.getOrDefault<Foam::Switch>("perBody", base.perBody);
+    base.flatRestitution = dict.getOrDefault<Foam::Switch>("flatRestitution", base.flatRestitution);
     return base;
 }
 

@@ -3,6 +3,7 @@
 
 #include "equations/gravity.hpp"
 #include "equations/materials.hpp"
+#include "equations/solidExtension.hpp"
 #include "equations/initialProfile.hpp"
 
 #include <algorithm>
@@ -25,7 +26,9 @@ Fluid::Fluid(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& f
 :   mesh_(mesh), halo_(halo), graph_(mesh), fluid_(fluid), controls_(controls), patches_(patches), values_(patches.size()),
     equation_(mesh, graph_, halo, fluid_, controls_, patches_), solver_(mesh, graph_, halo, controls_),
     transport_(mesh, graph_, halo, controls_)
-{}
+{
+    if (!controls_.dualCellTransport) supg_ = std::make_unique<PhaseFieldSupg>(mesh, graph_, halo, controls_);
+}
 
 void Fluid::start(FlowState state, bool isSharp)
 {
@@ -67,12 +70,27 @@ const std::vector<double>& Fluid::halfStep(const std::vector<double>& now, const
     return work;
 }
 
+TransportReport Fluid::advancePhase(double dt)
+{
+    const std::vector<double>& u = halfStep(state_.u, state_.uOld, dt, workU_);
+    const std::vector<double>& fine = halfStep(state_.fineScale, state_.fineScaleOld, dt, workFine_);
+    const std::vector<char>& isFixed = equation_.system().isPressureFixed;
+    if (!supg_) return transport_.advance(state_.alpha, dt, u, fine, cover_, patches_, values_, isFixed, ghostFlux_);
+    supg_->setHistory(state_.alphaOlder, state_.dt);
+    return supg_->advance(state_.alpha, dt, u, fine, cover_, patches_, values_, isFixed, ghostFlux_);
+}
+
+void Fluid::setKeptLiquid(double volume)
+{
+    if (supg_) supg_->setLiquidVolume(volume); else transport_.setLiquidVolume(volume);
+}
+
 TransportReport Fluid::beginStep(double dt)
 {
     before_.alpha = state_.alpha;
     before_.alphaOld = state_.alphaOld;
     before_.alphaOlder = state_.alphaOlder;
-    liquidBefore_ = transport_.liquidVolume();
+    liquidBefore_ = keptLiquid();
     time_ = TimeScheme::bdf(controls_.timeOrder, dt, state_.dt);
     TransportReport report;
     if (fluid_.isTwoPhase)
@@ -80,24 +98,21 @@ TransportReport Fluid::beginStep(double dt)
         evaluatePatches(state_.time + 0.5*dt);
         state_.alphaOlder = state_.alphaOld;
         state_.alphaOld = state_.alpha;
-        report = transport_.advance(state_.alpha, dt, halfStep(state_.u, state_.uOld, dt, workU_),
-            halfStep(state_.fineScale, state_.fineScaleOld, dt, workFine_), cover_, patches_, values_,
-            equation_.system().isPressureFixed, ghostFlux_);
+        report = advancePhase(dt);
     }
     evaluatePatches(state_.time + dt);
     return report;
 }
 
 /// Inside solids the phase field continues the free surface outside: the nearest plane's profile, so that a plane
-/// reaching into a solid stays a plane. Nodes without a plane keep what they have.
+/// reaching into a solid stays a plane; away from the surface the mean of the neighbours nearer to the fluid.
 void Fluid::extendPhase()
 {
+    extendIntoSolids(mesh_, graph_, halo_, *cover_, state_.alpha);
     propagateInterfacePlanes(mesh_, graph_, halo_, state_.alpha, transport_.width(), controls_.gravityLayers, planes_, cover_);
     for (int i : planes_.nodes())
     {
-        if (cover_->distance[i] >= 0) continue;
-        const double alpha = 1/(1 + std::exp(-planes_.distance(i)/transport_.width()[i]));
-        state_.alpha[i] = alpha;
+        if (!cover_->isActiveNode[i]) state_.alpha[i] = 1/(1 + std::exp(-planes_.distance(i)/transport_.width()[i]));
     }
     halo_.update(state_.alpha, 1);
 }
@@ -228,7 +243,7 @@ void Fluid::rejectStep()
     state_.alpha = before_.alpha;
     state_.alphaOld = before_.alphaOld;
     state_.alphaOlder = before_.alphaOlder;
-    transport_.setLiquidVolume(liquidBefore_);
+    setKeptLiquid(liquidBefore_);
 }
 
 bool Fluid::isFinite() const

@@ -11,6 +11,7 @@
 #include "equations/dualCellTransport.hpp"
 #include "equations/flowEquation.hpp"
 #include "equations/interfacePlanes.hpp"
+#include "equations/phaseFieldSupg.hpp"
 
 #include <memory>
 #include <string>
@@ -61,14 +62,15 @@ public:
     const Halo& halo() const { return halo_; }
     const FlowEquation& equation() const { return equation_; }
     /// Liquid volume the transport keeps to (part of the state) [m^dim].
-    double keptLiquid() const { return transport_.liquidVolume(); }
-    void setKeptLiquid(double volume) { transport_.setLiquidVolume(volume); }
+    double keptLiquid() const { return supg_ ? supg_->liquidVolume() : transport_.liquidVolume(); }
+    void setKeptLiquid(double volume);
     bool isFinite() const;  ///< the last solution is a number everywhere. Collective.
 
 private:
     void evaluatePatches(double time);
     void moveInactiveNodes();
     void extendPhase();
+    TransportReport advancePhase(double dt);
     const std::vector<double>& halfStep(const std::vector<double>& now, const std::vector<double>& old, double dt,
         std::vector<double>& work) const;
 
@@ -84,6 +86,7 @@ private:
     FlowEquation equation_;
     FlowLinearSolver solver_;
     DualCellTransport transport_;
+    std::unique_ptr<PhaseFieldSupg> supg_;  // the paper's form, when selected
     InterfacePlanes planes_;
     const Cover* cover_ = nullptr;
     const std::vector<Solid>* solids_ = nullptr;

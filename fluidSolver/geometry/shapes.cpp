@@ -129,11 +129,8 @@ VolumeMoments CylinderShape::moments() const
 TriSurface CylinderShape::surface(double size) const
 {
     requireSize(size);
-    const int n = pieces(2 * halfLength_, size), m = pieces(radius_, size);
-    std::vector<ProfilePoint> profile;
-    for (int i = 0; i < m; ++i) profile.push_back({-halfLength_, radius_ * i / m});
-    for (int i = 0; i <= n; ++i) profile.push_back({halfLength_ * (2.0 * i / n - 1), radius_});
-    for (int i = m - 1; i >= 0; --i) profile.push_back({halfLength_, radius_ * i / m});
+    // flat caps and straight sides need no facets of their own: the DEM pays for every triangle of a structure in every sub-step
+    const std::vector<ProfilePoint> profile{{-halfLength_, 0}, {-halfLength_, radius_}, {halfLength_, radius_}, {halfLength_, 0}};
     return surfaceOfRevolution(centre_, axis_, profile, ringPoints(radius_, size));
 }
 

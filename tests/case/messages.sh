@@ -1,0 +1,54 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Every mistake in a dictionary is refused with one message that names the place, what was found and what is allowed.
+. "$(dirname "$0")/support.sh"
+mkdir -p "$work" && cd "$work" || exit
+
+makeFloatingBar good
+(cd good && quietly flotsamFoam -dry-run) || exit
+failures=0
+
+# refused NAME 'COMMAND that makes the mistake' WORD...: the dry run must fail, its message must have all the words
+refused() {
+    local name=$1 mistake=$2 word log
+    shift 2
+    rm -rf "$name" && cp -r good "$name"
+    (cd "$name" && eval "$mistake") || fail "could not make the mistake $name"
+    log=$work/$name/log.dryRun
+    if (cd "$name" && flotsamFoam -dry-run > "$log" 2>&1); then
+        echo "$name: accepted" >&2
+        failures=$((failures + 1))
+        return
+    fi
+    for word in "$@"; do
+        grep -q -- "$word" "$log" || {
+            echo "$name: no '$word' in the message:" >&2
+            sed -n '/FATAL/,$p' "$log" | head -n 15 >&2
+            failures=$((failures + 1))
+            return
+        }
+    done
+}
+
+refused keyword 'setNumerics . "nitscheGama 10;"' \
+    fvSolution nitscheGama nitscheGamma
+refused range 'setNumerics . "tolerance -1;"' \
+    fvSolution tolerance -1
+refused missingField 'rm 0/p_rgh' p_rgh
+refused unknownCondition 'sed -i "s/pressureInletOutletVelocity/waveVelocity/" 0/U' \
+    waveVelocity atmosphere 'not available' pressureInletOutletVelocity
+refused turbulence 'sed -i "s/laminar;/RAS;/" constant/turbulenceProperties' RAS turbulenceProperties 'allowed: laminar'
+refused bodyOutside 'sed -i "s/(0 0.001 0.025)/(0.5 0.001 0.025)/" constant/bodies' bar 'outside of the mesh'
+refused overlap 'sed -i "s/    bar$/    copy { shape { type box; size (0.02 0.02 0.05); } density 590; position (0.01 0 0.025); }\n    bar/" constant/bodies' \
+    bar copy into
+refused unknownShape 'sed -i "s/type box/type bocks/" constant/bodies' bodies bocks box
+refused unknownBodyKeyword 'sed -i "s/density/densty/" constant/bodies' densty density
+refused openStl 'mkdir -p constant/triSurface
+    printf "solid open\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 0.01 0 0\nvertex 0 0.01 0\nendloop\nendfacet\nendsolid open\n" \
+        > constant/triSurface/open.stl
+    sed -i "s/type box; size (0.02 0.02 0.05);/type stl; file \"open.stl\";/" constant/bodies' \
+    open.stl
+refused twoShort 'sed -i "s/size (0.02 0.02 0.05)/size (0.02 0.02 0.03)/" constant/bodies' bar 'front to back'
+
+echo "$failures of the mistakes were not refused as promised"
+[ $failures -eq 0 ]

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""shortRun.py TUTORIAL: checks the first steps of a tutorial in the current folder."""
+import sys
+
+import numpy as np
+
+import flotsam
+from tutorial import Report, history
+
+name = sys.argv[1]
+h = history(".")
+report = Report(f"{name}, the first {h.time[-1]:g} s")
+
+speed = np.linalg.norm(flotsam.fields(".", "last", ["U"])["U"], axis=1)
+report.within("largest speed", speed.max(), 1e-6, 5, "m/s")
+if "massError" in h.run:
+    report.within("largest mass error", np.abs(h.run["massError"]).max(), 0, 1e-3)
+if name in ("damBreak", "floatingBar", "slitDam"):
+    alpha = flotsam.fields(".", "last", [flotsam.ALPHA])[flotsam.ALPHA]
+    report.within("smallest phase value", alpha.min(), -1e-9, 1)
+    report.within("largest phase value", alpha.max(), 0, 1 + 1e-9)
+
+if name == "damBreak":
+    # a column that collapses freely, before its front moves: a quarter of g t^2 at most has gone down at the wall
+    level = flotsam.waterLevel(".", "last", [0.005], up=1)[0]
+    report.within("level at the wall", level, 0.292 - 0.5 * 9.81 * 0.1**2, 0.292, "m")
+elif name == "flowPastCylinder":
+    # just started: the whole pressure of the acceleration, then the drag falls towards 5.58
+    drag = 500 * h["cylinder"].fluidForce[-1, 0]
+    report.within("drag coefficient", drag, 5, 15)
+elif name == "fallingSphere":
+    # experiment at 0.1 s: 0.053 m/s
+    report.compare("speed", -h["sphere"].velocity[-1, 2], 0.053, 0.1, "m/s", "ten Cate et al. 2002")
+elif name == "floatingBar":
+    report.within("height of the centre", h["bar"].position[-1, 1], -0.005, 0.002, "m", "between its start and its swing")
+elif name == "barAgainstPost":
+    report.within("force on the post", h["post"].contactForce[-1, 0], 0.01, 1, "N")
+    report.within("speed of the bar", np.abs(h["bar"].velocity[-1]).max(), 0, 0.01, "m/s", "it is held")
+elif name == "slitDam":
+    report.within("bars", len(h.bodies), 20, 20)
+    report.within("pipes", len(h.structures), 7, 7)
+    force = sum(h[pipe].fluidForce[-1, 0] for pipe in h.structures)
+    report.within("water's force on the pipes", force, 5, 40, "N", "0.5 rho g b (0.17^2 - 0.05^2) = 36 N is the largest")
+    held = np.array([h[bar].velocity[-1] for bar in h.bodies if bar.startswith("second")])
+    report.within("speed of the bars not yet released", np.abs(held).max(), 0, 1e-12, "m/s")
+report.end()

@@ -1,0 +1,25 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# tutorial.sh NAME: the first steps of a tutorial, with its own mesh and dictionaries; then numbers (shortRun.py).
+. "$(dirname "$0")/support.sh"
+mkdir -p "$work" && cd "$work" || exit
+
+makeCase "$1" case
+cd case || exit
+quietly blockMesh
+for tool in setFields setExprFields setExprBoundaryFields; do
+    if [ -f "system/${tool}Dict" ]; then quietly $tool; fi
+done
+case $1 in
+    damBreak) end=0.1 ;;
+    flowPastCylinder) end=0.2 ;;
+    fallingSphere) end=0.1 ;;
+    floatingBar) end=0.1 ;;
+    barAgainstPost) end=0.1 ;;
+    slitDam) end=0.02 ;;
+    *) fail "no tutorial $1" ;;
+esac
+setEntry system/controlDict endTime $end
+setEntry system/controlDict writeInterval $end
+quietly flotsamFoam
+python "$here/shortRun.py" "$1"

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Water under air at rest on irregular meshes stays at rest, with and without a solid that pierces the surface.
+#include "equations/fluid.hpp"
+#include "equations/initialProfile.hpp"
+#include "geometry/coverBuilder.hpp"
+#include "support/flowCases.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdio>
+
+using namespace flotsam;
+
+namespace
+{
+
+/// Largest speed in the water (alpha > 0.5) and anywhere after `time` seconds.
+std::array<double, 2> speedsAfter(int dim, int n, bool hasSolid, double time)
+{
+    usePetsc();
+    const SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, dim, {n, dim == 2 ? n : n/2, n}, {0, 0, 0},
+        {0.2, dim == 2 ? 0.2 : 0.1, dim == 2 ? 1.0 : 0.2}, 0.19);
+    const Halo halo(mesh, MPI_COMM_WORLD);
+    NumericsControls controls;
+    controls.tolerance = 1e-9;
+    FluidProperties properties;
+    properties.gravity[dim - 1] = -9.81;
+    Fluid fluid(mesh, halo, properties, controls, allPatches(mesh, BoundaryPatch::Velocity::Slip));
+    FlowState state = restState(mesh);
+    const double level = 0.1 + 0.37*0.2/n;
+    const std::vector<double> width = interfaceWidth(mesh, fluid.graph(), halo, controls.interfaceWidth);
+    for (int i = 0; i < mesh.nNodes; ++i)
+    {
+        const double d = level - mesh.x[std::size_t(i)*dim + dim - 1];
+        state.alpha[i] = 1/(1 + std::exp(-d/width[i]));
+    }
+    state.alphaOld = state.alphaOlder = state.alpha;
+    fluid.start(state, false);
+    std::vector<Solid> solids(1);
+    solids[0].shape = makeCylinder(Vec3(0.103, 0.103, -1), Vec3(0.103, 0.103, 2), 0.03);
+    if (dim == 3) solids[0].shape = makeCylinder(Vec3(0.103, 0.053, -1), Vec3(0.103, 0.053, 2), 0.023);
+    CoverBuilder builder(mesh, fluid.graph(), halo);
+    if (hasSolid)
+    {
+        const Cover& cover = builder.build(solids);
+        fluid.setGeometry(&cover, &solids, true);
+    }
+    const double dt = 2e-3;
+    while (fluid.state().time < time)
+    {
+        fluid.beginStep(dt);
+        fluid.assemble();
+        REQUIRE(fluid.solve({}).hasConverged);
+        fluid.endStep();
+    }
+    std::array<double, 2> largest{0, 0};
+    for (int i = 0; i < mesh.nOwned; ++i)
+        for (int d = 0; d < dim; ++d)
+        {
+            const double u = std::abs(fluid.state().u[std::size_t(i)*dim + d]);
+            largest[1] = std::max(largest[1], u);
+            if (fluid.state().alpha[i] > 0.5) largest[0] = std::max(largest[0], u);
+        }
+    for (double& v : largest) v = halo.max(v);
+    std::printf("%dD n=%d %s: water %.2e m/s, all %.2e m/s after %g s\n", dim, n, hasSolid ? "with a cylinder" : "open", largest[0], largest[1], time);
+    return largest;
+}
+
+} // namespace
+
+TEST_CASE("a two-fluid tank on an irregular mesh stays at rest") { CHECK(speedsAfter(2, 20, false, 0.1)[0] < 1e-5); }
+TEST_CASE("so it does around a cylinder at the surface") { CHECK(speedsAfter(2, 20, true, 0.1)[0] < 1e-5); }
+TEST_CASE("and in 3D") { CHECK(speedsAfter(3, 10, false, 0.1)[0] < 1e-5); }
+TEST_CASE("and in 3D around a cylinder that pierces the surface") { CHECK(speedsAfter(3, 10, true, 0.1)[0] < 1e-5); }
