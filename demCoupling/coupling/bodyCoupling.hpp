@@ -8,7 +8,7 @@
 ///   accept() or reject()
 ///
 /// Without contact before and after the step the first correct() returns true: exactly one solve a step. A prediction by DEM
-/// sub-steps gave no better contact loads and cost one DEM run in three (docs/numerics.md).
+/// sub-steps would cost one more DEM run in every step.
 /// The contact is the fixed point J = G(J); its contraction is (added mass)/(mass + added mass), 0.5 to 0.7 for
 /// driftwood, hence Anderson acceleration. Rank 0 owns the engine; every rank holds the same states.
 #pragma once

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Conservative transport of the phase field on median dual cells (docs/transport.md of the project):
+/// Conservative transport of the phase field on median dual cells (docs/numerics.md, section 4):
 /// the face value is the model's own equilibrium profile alpha = 1/(1+exp(-psi/delta)), |grad psi| = 1,
 /// reconstructed in the upwind dual cell (THINC-type), with piecewise "roof" cells where neighbouring normals disagree.
 #pragma once
