@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Flow and contact together: a light bar that a current presses against a stop feels, from the stop, the drag that the same bar
+/// feels when it is fixed; without contact the DEM ends at the velocity that the linear system gave.
+#include "demCoupling/coupling/coupledStep.hpp"
+#include "support/flowCases.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdio>
+
+using namespace flotsam;
+
+namespace
+{
+
+constexpr double side = 0.2, speed = 1.0;
+
+struct Channel
+{
+    SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, 2, {48, 24, 1}, {0, 0, 0}, {2, 1, 1});
+    Halo halo{mesh, MPI_COMM_WORLD};
+    FluidProperties fluid;
+    NumericsControls controls;
+    std::vector<BoundaryPatch> patches;
+    PhaseTimers timers;
+
+    Channel()
+    {
+        usePetsc();
+        fluid.isTwoPhase = false;
+        fluid.rhoLiquid = 1000;
+        fluid.muLiquid = 10; // Re 20: a steady flow
+        controls.tolerance = 1e-8;
+        controls.contactTolerance = 1e-4;
+        controls.maxContactRepeats = 20;
+        auto inflow = [](const double*, double t) { return std::array<double, 3>{speed*std::min(1.0, t/0.2), 0, 0}; };
+        patches.push_back(makePatch(mesh, 0, BoundaryPatch::Velocity::Fixed, inflow));
+        patches.push_back(makePatch(mesh, 1, BoundaryPatch::Velocity::Open));
+        for (int p : {2, 3}) patches.push_back(makePatch(mesh, p, BoundaryPatch::Velocity::Slip));
+    }
+
+    FlowState rest() const { return restState(mesh); }
+};
+
+BodyDefinition makeBar(double density, const Vec3& position)
+{
+    BodyDefinition bar;
+    bar.name = "bar";
+    bar.shape = makeBox(Vec3::Zero(), Vec3(side, side, 1));
+    bar.volume = side*side;
+    bar.mass = density*bar.volume;
+    bar.principalInertia = bar.mass/12*Vec3(1 + side*side, 1 + side*side, 2*side*side);
+    bar.pose.position = position;
+    bar.isPlanar = true;
+    for (double y : {-0.08, -0.04, 0.0, 0.04, 0.08})
+        for (double x : {-0.08, 0.08}) bar.spheres.push_back({Vec3(x, y, 0), 0.02});
+    return bar;
+}
+
+DemSetup makeDem(const BodyDefinition& bar, double stop)
+{
+    DemSetup dem;
+    dem.bodies = {bar};
+    dem.laws = {ContactLaw()};
+    dem.box = {Vec3(0, 0, 0), Vec3(2, 1, 1)};
+    WallDefinition wall;
+    wall.name = "stop";
+    wall.point = Vec3(stop, 0, 0);
+    wall.normal = Vec3(-1, 0, 0);
+    dem.walls = {wall};
+    return dem;
+}
+
+} // namespace
+
+TEST_CASE("the stop carries the drag of the fixed bar")
+{
+    const Vec3 position(0.7, 0.5, 0.5);
+    Channel channel;
+    const BodyDefinition bar = makeBar(590, position);
+    const DemSetup dem = makeDem(bar, position[0] + side/2 + 1e-9);
+    CoupledStep held(channel.mesh, channel.halo, channel.fluid, channel.controls, channel.patches,
+        Scene({}, {bar}, Vec3::Zero()), &dem, channel.timers);
+    held.start(channel.rest(), true);
+
+    Solid fixed;
+    fixed.shape = bar.shape;
+    fixed.pose.position = position;
+    fixed.offset = held.scene().solids()[0].offset; // the same cut: 4.8 elements a side see 1.5 % of a corner
+    CoupledStep still(channel.mesh, channel.halo, channel.fluid, channel.controls, channel.patches,
+        Scene({{fixed, -1, {}}}, {}, Vec3::Zero()), nullptr, channel.timers);
+    still.start(channel.rest(), true);
+    int repeats = 0;
+    for (int k = 0; k < 60; ++k)
+    {
+        REQUIRE(still.step(0.02).isAccepted);
+        const StepResult result = held.step(0.02);
+        REQUIRE(result.isAccepted);
+        repeats = std::max(repeats, result.solves - 1);
+    }
+    const double drag = still.records()[0].fluidForce[0];
+    const double contact = held.records()[0].contactForce[0];
+    std::printf("drag fixed %.4f N, contact force held %.4f N (%.3f %%), largest number of repeats %d\n", drag, contact,
+        100*(-contact/drag - 1), repeats);
+    CHECK(-contact == doctest::Approx(drag).epsilon(0.01));
+    CHECK(held.records()[0].fluidForce[0] == doctest::Approx(drag).epsilon(0.01));
+    CHECK(held.coupling()->wallLoads()[0].force[0] == doctest::Approx(drag).epsilon(0.01));
+    CHECK(std::abs(held.records()[0].motion.velocity[0]) < 1e-4);
+}
+
+TEST_CASE("without contact one solve a step, and the DEM ends at the solved velocity")
+{
+    Channel channel;
+    const BodyDefinition bar = makeBar(100, Vec3(0.5, 0.52, 0.5));
+    const DemSetup dem = makeDem(bar, 1.9);
+    CoupledStep run(channel.mesh, channel.halo, channel.fluid, channel.controls, channel.patches, Scene({}, {bar}, Vec3::Zero()), &dem,
+        channel.timers);
+    run.start(channel.rest(), true);
+    for (int k = 0; k < 10; ++k)
+    {
+        const StepResult result = run.step(0.01);
+        REQUIRE(result.isAccepted);
+        CHECK(result.solves == 1);
+        const Motion solved = run.fluid().solidMotions()[0], dem = run.records()[0].motion;
+        CHECK((solved.velocity - dem.velocity).norm() < 1e-6*std::max(1e-3, dem.velocity.norm()));
+        CHECK(std::abs(solved.angularVelocity[2] - dem.angularVelocity[2]) < 1e-6);
+    }
+    CHECK(run.records()[0].motion.velocity[0] > 0.1);
+}
