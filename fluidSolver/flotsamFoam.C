@@ -115,7 +115,7 @@ void run(Foam::Time& runTime, const Foam::fvMesh& mesh, bool isDryRun)
     output.begin(step);
     installStopSignals();
 
-    double dt = step.fluid().state().dt > 0 ? step.fluid().state().dt : std::min(runTime.deltaTValue(), controls.time.maxDeltaT)/growthLimit;
+    double dt = output.timeStep() > 0 ? output.timeStep() : std::min(runTime.deltaTValue(), controls.time.maxDeltaT)/growthLimit;
     while (runTime.run())
     {
         auto [wanted, limit] = nextTimeStep(step, controls.time, dt);
@@ -145,7 +145,7 @@ void run(Foam::Time& runTime, const Foam::fvMesh& mesh, bool isDryRun)
         if (isStopping) runTime.writeAndEnd();
         else if (writeNow) runTime.writeNow();
         else runTime.write();
-        if (runTime.writeTime() || isStopping || writeNow) output.writeState(step);
+        if (runTime.writeTime() || isStopping || writeNow) output.writeState(step, dt);
     }
     output.end(step);
 }

@@ -223,17 +223,19 @@ std::vector<double> BodyCoupling::save() const
     MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG, 0, comm_);
     data.resize(size);
     MPI_Bcast(data.data(), int(size), MPI_DOUBLE, 0, comm_);
-    for (const Load& l : lastLoads_)
-        for (const Vec3* v : {&l.force, &l.moment}) data.insert(data.end(), v->data(), v->data() + 3);
+    for (const auto* loads : {&lastLoads_, &contact_})
+        for (const Load& l : *loads)
+            for (const Vec3* v : {&l.force, &l.moment}) data.insert(data.end(), v->data(), v->data() + 3);
     return data;
 }
 
 void BodyCoupling::restore(const std::vector<double>& data)
 {
-    const std::size_t tail = 6*setup_.bodies.size();
+    const std::size_t tail = 12*setup_.bodies.size();
     if (data.size() < tail) throw std::runtime_error("restart: the stored state of the bodies is too short for this case");
     const double* at = data.data() + data.size() - tail;
-    for (Load& l : lastLoads_) { get(at, l.force); get(at, l.moment); }
+    for (auto* loads : {&lastLoads_, &contact_})
+        for (Load& l : *loads) { get(at, l.force); get(at, l.moment); }
     guarded([&]
     {
         engine_->restore(DemState{std::vector<double>(data.begin(), data.end() - std::ptrdiff_t(tail))});

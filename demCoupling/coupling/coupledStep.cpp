@@ -170,6 +170,7 @@ std::map<std::string, std::vector<double>> CoupledStep::save() const
     arrays["liquid"] = {fluid_.keptLiquid()};
     if (scene_.isEmpty()) return arrays;
     arrays["solids"] = scene_.save();
+    arrays["ghostFluxes"] = fluid_.ghostFluxes();
     std::vector<double> loads;
     for (const auto& l : loads_)
         for (const Vec3* v : {&l.force, &l.moment}) loads.insert(loads.end(), v->data(), v->data() + 3);
@@ -191,6 +192,7 @@ void CoupledStep::restore(FlowState state, const std::map<std::string, std::vect
     fluid_.setKeptLiquid(array("liquid").at(0));
     if (scene_.isEmpty()) return;
     scene_.restore(array("solids"));
+    fluid_.setGhostFluxes(array("ghostFluxes"));
     const std::vector<double>& loads = array("fluidLoads");
     loads_.assign(scene_.solids().size(), {Vec3::Zero(), Vec3::Zero()});
     for (std::size_t s = 0; s < loads_.size() && 6*s + 5 < loads.size(); ++s)

@@ -59,6 +59,7 @@ bool RunOutput::readState(CoupledStep& step)
     mass_ = {state.scalars["initialLiquid"], state.scalars["inflow"], state.scalars["outflow"], 0};
     steps_ = long(state.scalars["steps"]);
     redistributed_ = state.scalars["redistributed"];
+    timeStep_ = state.scalars["timeStep"];
     forces_.restore(state.arrays["forces"]);
     step.restore(std::move(state.flow), state.arrays);
     Foam::Info<< "continuing the stored state of time " << runTime_.timeName() << Foam::endl;
@@ -126,14 +127,14 @@ void RunOutput::countRejected(const std::string& reason, double dt)
     Foam::Info<< "step of " << dt << " s rejected: " << reason.c_str() << "; repeated with half of it" << Foam::endl;
 }
 
-void RunOutput::writeState(const CoupledStep& step)
+void RunOutput::writeState(const CoupledStep& step, double timeStep)
 {
     RunState state;
     state.flow = step.fluid().state();
     state.arrays = step.save();
     state.arrays["forces"] = forces_.values();
     state.scalars = {{"initialLiquid", mass_.initial}, {"inflow", mass_.inflow}, {"outflow", mass_.outflow},
-        {"steps", double(steps_)}, {"redistributed", redistributed_}};
+        {"steps", double(steps_)}, {"redistributed", redistributed_}, {"timeStep", timeStep}};
     writeCheckpoint(stateFile(), state);
     if (!history_) return;
     history_->flush();

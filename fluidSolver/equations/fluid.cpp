@@ -85,6 +85,21 @@ void Fluid::setKeptLiquid(double volume)
     if (supg_) supg_->setLiquidVolume(volume); else transport_.setLiquidVolume(volume);
 }
 
+std::vector<double> Fluid::ghostFluxes() const
+{
+    std::vector<double> triples;
+    triples.reserve(3*ghostFlux_.size());
+    for (const PairFlux& f : ghostFlux_) triples.insert(triples.end(), {double(f.a), double(f.b), f.flux});
+    return triples;
+}
+
+void Fluid::setGhostFluxes(const std::vector<double>& triples)
+{
+    ghostFlux_.clear();
+    for (std::size_t k = 0; k + 2 < triples.size(); k += 3)
+        ghostFlux_.push_back({int(triples[k]), int(triples[k + 1]), triples[k + 2]});
+}
+
 TransportReport Fluid::beginStep(double dt)
 {
     before_.alpha = state_.alpha;

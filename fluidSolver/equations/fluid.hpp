@@ -64,6 +64,9 @@ public:
     /// Liquid volume the transport keeps to (part of the state) [m^dim].
     double keptLiquid() const { return supg_ ? supg_->liquidVolume() : transport_.liquidVolume(); }
     void setKeptLiquid(double volume);
+    /// Ghost-penalty fluxes of the last accepted solve as {a, b, flux} triples (part of the state of a run with solids).
+    std::vector<double> ghostFluxes() const;
+    void setGhostFluxes(const std::vector<double>& triples);
     bool isFinite() const;  ///< the last solution is a number everywhere. Collective.
 
 private:
