@@ -46,7 +46,13 @@ SceneCounts countScene(const BodiesInput& input)
     SceneCounts counts;
     for (const StructureDefinition& s : input.structures) ++(s.motion ? counts.movingStructures : counts.fixedStructures);
     counts.bodies = int(input.bodies.size());
-    for (const BodyDefinition& b : input.bodies) counts.demSpheres += long(b.spheres.size());
+    for (const BodyDefinition& b : input.bodies)
+    {
+        counts.demSpheres += long(b.spheres.size());
+        const std::array<Vec3, 2> bounds = b.shape->bounds();
+        const double thinnest = (bounds[1] - bounds[0]).minCoeff();
+        if (counts.thinnestBody == 0 || thinnest < counts.thinnestBody) counts.thinnestBody = thinnest;
+    }
     counts.walls = int(input.walls.size());
     return counts;
 }
