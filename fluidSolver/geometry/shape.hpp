@@ -45,7 +45,7 @@ public:
     /// Exact for box, cylinder, sphere, capsule, closed STL; for overlapping unions by fine sampling (says so in its source).
     virtual VolumeMoments moments() const = 0;
 
-    /// Triangulated surface; curved shapes with facets no longer than `size` [m].
+    /// Triangulated surface; no edge that bends with the shape is longer than `size` [m] (straight lines stay whole).
     virtual TriSurface surface(double size) const = 0;
 };
 
