@@ -2,6 +2,8 @@
 /// Boundary conditions on the mesh's patches: prescribed directions, open boundaries.
 #include "equations/flowEquation.hpp"
 
+#include "geometry/cutSimplex.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -45,6 +47,58 @@ void outwardVector(const SimplexMesh& mesh, const MeshPatch& patch, std::size_t 
             inward += v[d]*(mesh.x[std::size_t(element[a])*dim + d] - mesh.x[std::size_t(nodes[0])*dim + d]);
     if (inward > 0) for (int d = 0; d < dim; ++d) v[d] = -v[d];
 }
+
+/// int N_k N_l over the fluid part of a face, over the face's area (shape functions of the face itself).
+template<int D>
+struct FaceMoments
+{
+    double second[D*D], first[D];
+
+    FaceMoments(const Cover* cover, const int* nodes)
+    {
+        double distance[D];
+        int nSolid = 0;
+        for (int k = 0; k < D; ++k)
+        {
+            distance[k] = cover ? cover->distance[nodes[k]] : farDistance;
+            nSolid += distance[k] < 0;
+        }
+        if (nSolid == 0) fill(1);
+        else if (nSolid == D) fill(0);
+        else integrateCut(distance);
+        for (int k = 0; k < D; ++k)
+        {
+            first[k] = 0;
+            for (int l = 0; l < D; ++l) first[k] += second[k*D + l];
+        }
+    }
+
+private:
+    void fill(double share)
+    {
+        for (int k = 0; k < D; ++k)
+            for (int l = 0; l < D; ++l) second[k*D + l] = share*(k == l ? 2. : 1.)/(D*(D + 1));
+    }
+
+    void integrateCut(const double* distance)
+    {
+        if constexpr (D == 3)
+        {
+            constexpr double vertices[6] = {0, 0, 1, 0, 0, 1}, gradN[6] = {-1, -1, 1, 0, 0, 1};
+            const SimplexCut<2> cut = cutSimplex<2>(distance, 0.5, vertices, gradN);
+            for (int m = 0; m < 9; ++m) second[m] = 2*cut.second[m];
+        }
+        else
+        {
+            // the edge from its fluid end, of which the part s in [0, t] is fluid: N = 1 - s there, s at the other end
+            const int fluid = distance[0] > 0 ? 0 : 1, solid = 1 - fluid;
+            const double t = distance[fluid]/(distance[fluid] - distance[solid]);
+            second[fluid*2 + fluid] = (1 - (1 - t)*(1 - t)*(1 - t))/3;
+            second[solid*2 + solid] = t*t*t/3;
+            second[1] = second[2] = t*t/2 - t*t*t/3;
+        }
+    }
+};
 
 /// Normals of the slip faces at one node, grouped into smooth walls.
 struct SlipNormals
@@ -196,32 +250,36 @@ void FlowEquation::assembleOpenBoundaries()
         for (std::size_t f = 0; f < faces.faceElement.size(); ++f)
         {
             const int* nodes = &faces.faceNodes[f*D];
-            double v[3], pressure[3], sum = 0;
+            const FaceMoments<D> moments(step_.cover, nodes);
+            double v[3];
             outwardVector(mesh_, faces, f, v);
-            for (int k = 0; k < D; ++k) sum += pressure[k] = pressureAt(nodes[k]);
+            double size2 = 0;
+            for (int d = 0; d < D; ++d) size2 += v[d]*v[d];
             for (int k = 0; k < D; ++k)
             {
                 const int i = nodes[k];
+                if (i >= mesh_.nOwned || moments.first[k] <= 0) continue;
                 double flux = 0;
-                for (int d = 0; d < D; ++d) flux += nodal_.advection[std::size_t(i)*D + d]*v[d]/D;
-                if (i >= mesh_.nOwned) continue;
+                for (int d = 0; d < D; ++d) flux += nodal_.advection[std::size_t(i)*D + d]*v[d]*moments.first[k];
                 // boundary part of the skew-symmetric convection where the fluid leaves (lumped); what enters brings no
                 // tangential velocity (pressureInletOutletVelocity)
                 double* m = &system_.matrix.velocity[std::size_t(graph_.diagonal[i])*D*D];
-                double size2 = 0;
-                for (int d = 0; d < D; ++d) size2 += v[d]*v[d];
                 for (int d = 0; d < D; ++d)
                 {
                     m[d*D + d] += 0.5*nodal_.rho[i]*std::abs(flux);
                     for (int l = 0; l < D && flux < 0; ++l) m[d*D + l] += 0.5*nodal_.rho[i]*flux*v[d]*v[l]/size2;
                 }
                 // - int p_ext w.n; without a prescribed pressure the unknown's own value acts
-                const double weight = (sum + pressure[k])/(D*(D + 1));
-                for (int d = 0; d < D; ++d) system_.rhs[std::size_t(i)*B + d] -= weight*v[d];
-                for (int l = 0; l < D && !hasPressure; ++l)
+                for (int l = 0; l < D; ++l)
                 {
+                    const double weight = moments.second[k*D + l];
+                    if (hasPressure)
+                    {
+                        for (int d = 0; d < D; ++d) system_.rhs[std::size_t(i)*B + d] -= weight*pressureAt(nodes[l])*v[d];
+                        continue;
+                    }
                     double* column = &system_.matrix.gradient[std::size_t(graph_.find(i, nodes[l]))*D];
-                    for (int d = 0; d < D; ++d) column[d] += (k == l ? 2.0 : 1.0)/(D*(D + 1))*v[d];
+                    for (int d = 0; d < D; ++d) column[d] += weight*v[d];
                 }
             }
         }
