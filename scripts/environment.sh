@@ -18,14 +18,15 @@ export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1
 export OMPI_MCA_btl_vader_single_copy_mechanism=none    # containers forbid it, with a message for every rank
 export OMP_NUM_THREADS=1
 
-# the python that has the packages: another one may stand first in PATH
-if [ -z "${FLOTSAM_PYTHON:-}" ]; then
-    FLOTSAM_PYTHON=python3
-    for python in python3 /usr/bin/python3; do
-        if "$python" -c 'import h5py, numpy' 2> /dev/null; then
-            FLOTSAM_PYTHON=$python
-            break
-        fi
-    done
-    export FLOTSAM_PYTHON
-fi
+# The python that has the packages: another one may stand first in PATH. Looked for each time this is sourced (they may have
+# been installed meanwhile); a FLOTSAM_PYTHON of the user's comes first.
+flotsamPythonPackages="numpy, h5py, matplotlib, vtkmodules.vtkCommonCore"
+flotsamPythonIsComplete=no
+for python in ${FLOTSAM_PYTHON:+"$FLOTSAM_PYTHON"} python3 /usr/bin/python3; do
+    if "$python" -c "import $flotsamPythonPackages" > /dev/null 2>&1; then
+        FLOTSAM_PYTHON=$python
+        flotsamPythonIsComplete=yes
+        break
+    fi
+done
+export FLOTSAM_PYTHON="${FLOTSAM_PYTHON:-python3}"

@@ -5,3 +5,16 @@ flotsam_test(tankAtRest verification SOURCES verification/tankAtRest.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(heldBody verification SOURCES verification/heldBody.cpp
   LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
+
+add_library(flotsam_flow_support STATIC support/forcedFlow.cpp support/manufactured.cpp support/cutFlows.cpp
+  support/systemMatrix.cpp)
+target_link_libraries(flotsam_flow_support PUBLIC flotsam_equations flotsam_test_support doctest::doctest)
+
+flotsam_test(manufactured verification SOURCES verification/manufactured.cpp LIBRARIES flotsam_flow_support)
+flotsam_test(manufactured3D verification SOURCES verification/manufactured3D.cpp LIBRARIES flotsam_flow_support)
+flotsam_test(cutManufactured verification SOURCES verification/cutManufactured.cpp LIBRARIES flotsam_flow_support)
+flotsam_test(cutPositions verification SOURCES verification/cutPositions.cpp LIBRARIES flotsam_flow_support)
+flotsam_test(timeOrder verification SOURCES verification/timeOrder.cpp LIBRARIES flotsam_flow_support)
+flotsam_test(taylorGreen verification SOURCES verification/taylorGreen.cpp LIBRARIES flotsam_flow_support RANKS 1 2)
+flotsam_test(cavity verification SOURCES verification/cavity.cpp LIBRARIES flotsam_flow_support RANKS 1 2)
+flotsam_test(addedMass verification SOURCES verification/addedMass.cpp LIBRARIES flotsam_flow_support)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The element loops of the dual-cell transport: volume fluxes, face values, model flux.
+/// The element loops of the dual-cell transport: face values, model flux.
 #include "equations/dualCellTransport.hpp"
 
 #include <cmath>
@@ -60,46 +60,19 @@ struct FaceGeometry
 
 } // namespace
 
+/// antiFlux_ = dt F (alpha of the profile at the face - value of the upwind exchange), from the first corner to the second.
 template<int dim>
-void DualCellTransport::storeVolumeFluxes(const Arguments& in)
-{
-    using Pairs = CornerPairs<dim>;
-    flux_.resize(nInnerActive_*Pairs::count);
-    for (std::size_t k = 0; k < nInnerActive_; ++k)
-    {
-        const int e = activeElements_[k];
-        const int* nodes = &mesh_.elements[std::size_t(e)*(dim + 1)];
-        double* flux = &flux_[k*Pairs::count];
-        volumeFlux_.ofElement<dim>(e, in.u, in.fineScale, in.cover, flux);
-        for (int p = 0; p < Pairs::count; ++p)
-        {
-            const int a = nodes[Pairs::first[p]], b = nodes[Pairs::second[p]];
-            const int from = flux[p] > 0 ? a : b, to = flux[p] > 0 ? b : a;
-            const double size = std::abs(flux[p]);
-            inflowSum_[to] += size;
-            gain_[to] += size*(in.alpha[from] - in.alpha[to]);
-        }
-    }
-    for (const PairFlux& pair : in.pairFlux)
-    {
-        const int from = pair.flux > 0 ? pair.a : pair.b, to = pair.flux > 0 ? pair.b : pair.a;
-        inflowSum_[to] += std::abs(pair.flux);
-        gain_[to] += std::abs(pair.flux)*(in.alpha[from] - in.alpha[to]);
-    }
-}
-
-/// antiFlux_ = F (alpha of the profile at the face - alpha of the upwind cell), from the first corner to the second.
-template<int dim>
-void DualCellTransport::addFaceValues(const Arguments& in, double dt)
+void DualCellTransport::addFaceValues(const Arguments& in)
 {
     using Pairs = CornerPairs<dim>;
     constexpr int n = dim + 1;
-    antiFlux_.resize(flux_.size());
-    for (std::size_t k = 0; k < nInnerActive_; ++k)
+    antiFlux_.resize(active_.size()*Pairs::count);
+    for (std::size_t k = 0; k < active_.size(); ++k)
     {
-        const int e = activeElements_[k];
+        const int e = stored_[active_[k]];
         const int* nodes = &mesh_.elements[std::size_t(e)*n];
-        const double* flux = &flux_[k*Pairs::count];
+        const double dt = timeStep(in, activeLevel_[k]);
+        const double* flux = &flux_[active_[k]*Pairs::count];
         double* antiFlux = &antiFlux_[k*Pairs::count];
         const FaceGeometry<dim> geometry(mesh_, in.u, nodes);
 
@@ -129,12 +102,12 @@ void DualCellTransport::addFaceValues(const Arguments& in, double dt)
             if (profile.kind == NodeProfile::Kind::Tail)
             {
                 const double own = in.alpha[nodes[upwind]], most = std::min(own, 1 - own);
-                antiFlux[p] = flux[p]*std::clamp(in.alpha[nodes[upwind == a ? b : a]] - own, -most, most);
+                antiFlux[p] = dt*flux[p]*(own + std::clamp(in.alpha[nodes[upwind == a ? b : a]] - own, -most, most) - upwind_[nodes[upwind]]);
                 continue;
             }
             if (profile.kind == NodeProfile::Kind::Bulk)
             {
-                antiFlux[p] = 0;
+                antiFlux[p] = dt*flux[p]*(in.alpha[nodes[upwind]] - upwind_[nodes[upwind]]);
                 continue;
             }
             double offset[dim], velocity[dim];
@@ -151,21 +124,21 @@ void DualCellTransport::addFaceValues(const Arguments& in, double dt)
                 psi = profile.value + scale*dot<dim>(gradient, offset);
                 swept = scale*dt*dot<dim>(gradient, velocity);
             }
-            antiFlux[p] = flux[p]*(sweptMean(psi, swept) - in.alpha[nodes[upwind]]);
+            antiFlux[p] = dt*flux[p]*(sweptMean(psi, swept) - upwind_[nodes[upwind]]);
         }
     }
 }
 
 /// The Allen-Cahn flux gamma delta grad alpha (1 - 1/|grad level|), which vanishes in the equilibrium profile
-/// (ratio form). mobility: gamma [m/s].
+/// (ratio form).
 template<int dim>
-void DualCellTransport::addModelFlux(const Arguments& in, double mobility)
+void DualCellTransport::addModelFlux(const Arguments& in)
 {
     using Pairs = CornerPairs<dim>;
     constexpr int n = dim + 1;
-    for (std::size_t k = 0; k < nInnerActive_; ++k)
+    for (std::size_t k = 0; k < active_.size(); ++k)
     {
-        const int e = activeElements_[k];
+        const int e = stored_[active_[k]];
         if (in.cover && in.cover->state[e] != ElementState::Fluid)
         {
             continue;
@@ -190,7 +163,7 @@ void DualCellTransport::addModelFlux(const Arguments& in, double mobility)
         {
             continue;
         }
-        const double factor = mobility*width*(1 - std::min(2., 1/length))*mesh_.volume[e]/n;
+        const double factor = timeStep(in, activeLevel_[k])*in.mobility*width*(1 - std::min(2., 1/length))*mesh_.volume[e]/n;
         for (int p = 0; p < Pairs::count; ++p)
         {
             antiFlux_[k*Pairs::count + p] -= factor*(dot<dim>(slope, g + Pairs::second[p]*dim) - dot<dim>(slope, g + Pairs::first[p]*dim));
@@ -198,11 +171,9 @@ void DualCellTransport::addModelFlux(const Arguments& in, double mobility)
     }
 }
 
-template void DualCellTransport::storeVolumeFluxes<2>(const Arguments&);
-template void DualCellTransport::addFaceValues<2>(const Arguments&, double);
-template void DualCellTransport::addModelFlux<2>(const Arguments&, double);
-template void DualCellTransport::storeVolumeFluxes<3>(const Arguments&);
-template void DualCellTransport::addFaceValues<3>(const Arguments&, double);
-template void DualCellTransport::addModelFlux<3>(const Arguments&, double);
+template void DualCellTransport::addFaceValues<2>(const Arguments&);
+template void DualCellTransport::addModelFlux<2>(const Arguments&);
+template void DualCellTransport::addFaceValues<3>(const Arguments&);
+template void DualCellTransport::addModelFlux<3>(const Arguments&);
 
 } // namespace flotsam

@@ -3,10 +3,9 @@
 
 #include "equations/initialProfile.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
-#include <string>
 
 namespace flotsam
 {
@@ -14,13 +13,10 @@ namespace flotsam
 namespace
 {
 
-/// alpha closer than this to 0 or 1 is bulk: a divergence-free flux changes nothing there.
-constexpr double bulkTolerance = 1e-12;
 /// Dual cells that a solid fills to more than 1 - this are moved as if they were this large (time step).
 constexpr double smallestCell = 0.3;
 /// Limited volumes below this share of an element are not counted.
 constexpr double reportedLimit = 1e-3;
-constexpr int maxSubSteps = 1000;
 
 } // namespace
 
@@ -30,7 +26,10 @@ DualCellTransport::DualCellTransport(const SimplexMesh& mesh, const NodeGraph& g
       width_(interfaceWidth(mesh, graph, halo, controls.interfaceWidth)), dualVolume_(dualVolumes(mesh, nullptr)),
       wholeVolume_(dualVolume_), cells_(mesh), reconstruction_(mesh, graph, cells_, width_), volumeFlux_(mesh, graph),
       boundary_(mesh, graph, volumeFlux_), liquidVolume_(std::numeric_limits<double>::quiet_NaN()), phase_(mesh.nNodes),
-      isActiveNode_(mesh.nNodes, 0), inflowSum_(mesh.nNodes), gain_(mesh.nNodes), limiter_(2*std::size_t(mesh.nNodes))
+      inflow_(mesh.nNodes), outflow_(mesh.nNodes), rest_(mesh.nNodes), level_(mesh.nNodes), liquid_(mesh.nNodes),
+      volume_(mesh.nNodes), upwind_(mesh.nNodes), isMeeting_(mesh.nNodes, 0), firstLiquid_(mesh.nNodes),
+      firstVolume_(mesh.nNodes), isActiveNode_(mesh.nNodes, 0), isListed_(mesh.nElements, 0), limiter_(2*std::size_t(mesh.nNodes)),
+      isOpen_(mesh.nNodes, 0)
 {
 }
 
@@ -52,148 +51,196 @@ void DualCellTransport::useCover(const Cover* cover)
     hasSolids_ = cover != nullptr;
 }
 
-/// Elements in which alpha varies, and the nodes that may change in this sub-step.
-void DualCellTransport::findActive(const std::vector<double>& alpha, const std::vector<PairFlux>& pairFlux)
+/// The cells whose own time step begins hold what alpha says. They end it with their volume of now: what the flux balance
+/// is short of, a solid's surface has swept.
+void DualCellTransport::openCells(const Arguments& in, const Part& part)
 {
-    for (int i = 0; i < mesh_.nNodes; ++i)
+    const auto begin = [&](int i) {
+        volume_[i] = effectiveVolume(i) - timeStep(in, level_[i])*(inflow_[i] - outflow_[i]);
+        liquid_[i] = in.alpha[i]*volume_[i];
+        upwind_[i] = in.alpha[i];
+    };
+    if (part.level == 0)
     {
-        phase_[i] = alpha[i] <= bulkTolerance ? 0 : alpha[i] >= 1 - bulkTolerance ? 1 : 2;
+        for (int i = 0; i < mesh_.nNodes; ++i)
+        {
+            begin(i);
+        }
     }
+    for (int i : steppedNodes_)
+    {
+        if (level_[i] < part.level)
+        {
+            break;
+        }
+        begin(i);
+    }
+    for (int l = part.level; l <= largestLevel_; ++l)
+    {
+        for (int i : meeting_[l])
+        {
+            firstLiquid_[i] = liquid_[i];
+            firstVolume_[i] = volume_[i];
+        }
+    }
+    for (int i = 0; i < mesh_.nOwned && part.level == 0; ++i)
+    {
+        fill(i, in.dt*rest_[i], in.alpha[i]);   // through elements in which alpha does not vary
+    }
+}
+
+/// Upwind exchange, lower levels first: what a node of a level holds after it, its own level has exchanged.
+template<int dim>
+void DualCellTransport::addUpwind(const Arguments& in, const Part& part)
+{
+    using Pairs = CornerPairs<dim>;
+    for (int l = part.level; l <= largestLevel_; ++l)
+    {
+        const double dt = timeStep(in, l);
+        for (std::size_t k = storedStart_[l]; k < storedStart_[l + 1]; ++k)
+        {
+            const int* nodes = &mesh_.elements[std::size_t(stored_[k])*(dim + 1)];
+            for (int p = 0; p < Pairs::count; ++p)
+            {
+                const int a = nodes[Pairs::first[p]], b = nodes[Pairs::second[p]];
+                const double volume = dt*flux_[k*Pairs::count + p], alpha = upwind_[volume > 0 ? a : b];
+                fill(a, -volume, alpha);
+                fill(b, volume, alpha);
+            }
+        }
+        for (int i : meeting_[l])
+        {
+            firstLiquid_[i] = liquid_[i] - firstLiquid_[i];
+            firstVolume_[i] = volume_[i] - firstVolume_[i];
+        }
+    }
+}
+
+void DualCellTransport::addBoundary(const Arguments& in, const Part& part, TransportReport& report)
+{
+    for (const BoundaryFlux& b : boundary_.fluxes())
+    {
+        if (level_[b.node] < part.level)
+        {
+            continue;
+        }
+        const double volume = timeStep(in, level_[b.node])*b.flux;
+        const double alpha = b.flux < 0 && b.alphaIn >= 0 ? b.alphaIn : upwind_[b.node];
+        (b.flux > 0 ? report.outflow : report.inflow) += std::abs(volume)*alpha;
+        fill(b.node, -volume, alpha);
+        if (alpha != upwind_[b.node])
+        {
+            open(b.node);
+        }
+    }
+}
+
+void DualCellTransport::addPairs(const Arguments& in, const Part& part)
+{
+    const auto add = [&](const PairFlux& pair) {
+        const int level = std::max(level_[pair.a], level_[pair.b]);
+        if (level < part.level)
+        {
+            return;
+        }
+        const double volume = timeStep(in, level)*pair.flux, alpha = upwind_[volume > 0 ? pair.a : pair.b];
+        fill(pair.a, -volume, alpha);
+        fill(pair.b, volume, alpha);
+        if (upwind_[pair.a] != upwind_[pair.b])
+        {
+            open(pair.a);
+            open(pair.b);
+        }
+    };
+    if (part.level == 0)
+    {
+        std::for_each(in.pairFlux.begin(), in.pairFlux.end(), add);
+        return;
+    }
+    for (int k : steppedPairs_)
+    {
+        add(in.pairFlux[k]);
+    }
+}
+
+/// Acting elements in which alpha varies, and their nodes.
+template<int dim>
+void DualCellTransport::findActive(const Part& part)
+{
     for (int i : activeNodes_)
     {
         isActiveNode_[i] = 0;
     }
     activeNodes_.clear();
-    activeElements_.clear();
-    const auto activate = [this](int i) {
-        if (!isActiveNode_[i])
-        {
-            isActiveNode_[i] = 1;
-            activeNodes_.push_back(i);
-        }
-    };
-
-    const int n = mesh_.dim + 1;
-    for (int e = 0; e < mesh_.nElements; ++e)
+    active_.clear();
+    activeLevel_.clear();
+    for (int l = part.level; l <= largestLevel_; ++l)
     {
-        if (e == mesh_.nInnerElements)
+        for (std::size_t k = storedStart_[l]; k < storedStart_[l + 1]; ++k)
         {
-            nInnerActive_ = activeElements_.size();
-        }
-        const int* nodes = &mesh_.elements[std::size_t(e)*n];
-        const char first = phase_[nodes[0]];
-        bool isActive = first == 2;
-        for (int a = 1; a < n; ++a)
-        {
-            isActive = isActive || phase_[nodes[a]] != first;
-        }
-        if (!isActive)
-        {
-            continue;
-        }
-        activeElements_.push_back(e);
-        for (int a = 0; a < n && e < mesh_.nInnerElements; ++a)
-        {
-            activate(nodes[a]);
+            if (isBulk(stored_[k]))
+            {
+                continue;
+            }
+            active_.push_back(k);
+            activeLevel_.push_back(l);
+            const int* nodes = &mesh_.elements[std::size_t(stored_[k])*(dim + 1)];
+            for (int a = 0; a <= dim; ++a)
+            {
+                if (!isActiveNode_[nodes[a]])
+                {
+                    isActiveNode_[nodes[a]] = 1;
+                    activeNodes_.push_back(nodes[a]);
+                }
+            }
         }
     }
-    if (mesh_.nInnerElements == mesh_.nElements)
-    {
-        nInnerActive_ = activeElements_.size();
-    }
-    for (const BoundaryFlux& b : boundary_.fluxes())
-    {
-        if (b.flux < 0 && b.alphaIn >= 0 && b.alphaIn != alpha[b.node])
-        {
-            activate(b.node);
-        }
-    }
-    for (const PairFlux& pair : pairFlux)
-    {
-        if (alpha[pair.a] != alpha[pair.b])
-        {
-            activate(pair.a);
-            activate(pair.b);
-        }
-    }
-}
-
-void DualCellTransport::clearSums()
-{
     for (int i : activeNodes_)
     {
-        inflowSum_[i] = gain_[i] = limiter_[2*std::size_t(i)] = limiter_[2*std::size_t(i) + 1] = 0;
+        open(i);
+        limiter_[2*std::size_t(i)] = limiter_[2*std::size_t(i) + 1] = 0;
     }
+    findAround();
 }
 
-void DualCellTransport::addBoundaryInflow(const std::vector<double>& alpha)
+/// All elements around the active nodes in which alpha varies.
+void DualCellTransport::findAround()
 {
-    for (const BoundaryFlux& b : boundary_.fluxes())
-    {
-        if (b.flux < 0 && b.alphaIn >= 0 && isActiveNode_[b.node])
-        {
-            inflowSum_[b.node] -= b.flux;
-            gain_[b.node] -= b.flux*(b.alphaIn - alpha[b.node]);
-        }
-    }
-}
-
-/// max over all ranks of sum(inflow)/volume [1/s].
-double DualCellTransport::largestRate(const Arguments& in)
-{
-    double rate = 0;
-    bool isFinite = true;
+    aroundActive_.clear();
     for (int i : activeNodes_)
     {
-        if (i < mesh_.nOwned)
+        for (int k = graph_.nodeElementStart[i]; k < graph_.nodeElementStart[i + 1]; ++k)
         {
-            const double r = inflowSum_[i]/effectiveVolume(i);
-            isFinite = isFinite && std::isfinite(r);
-            rate = std::max(rate, r);
+            const int e = graph_.nodeElement[k];
+            if (!isListed_[e] && !isBulk(e))
+            {
+                isListed_[e] = 1;
+                aroundActive_.push_back(e);
+            }
         }
     }
-    rate = halo_.max(isFinite ? rate : std::numeric_limits<double>::max());
-    if (rate*in.dt > maxSubSteps*controls_.transportCourant)
+    for (int e : aroundActive_)
     {
-        throw std::runtime_error("phase transport: a dual cell takes in " + std::to_string(rate*in.dt)
-            + " times its volume in one step of " + std::to_string(in.dt) + " s (at most "
-            + std::to_string(maxSubSteps*controls_.transportCourant) + "): the velocity is wrong or the step too long");
-    }
-    return rate;
-}
-
-/// Zalesak's limiter with the global bounds 0 and 1: how much of the sums of a node may act. One exchange.
-void DualCellTransport::limit(const Arguments& in, double dt)
-{
-    for (int i : activeNodes_)
-    {
-        const double room = effectiveVolume(i)/dt;
-        const double low = in.alpha[i] + gain_[i]/room;
-        double* l = &limiter_[2*std::size_t(i)];
-        l[0] = l[0] > 0 ? std::min(1., std::max(0., 1 - low)*room/l[0]) : 1;
-        l[1] = l[1] > 0 ? std::min(1., std::max(0., low)*room/l[1]) : 1;
-    }
-    if (halo_.size() > 1)
-    {
-        halo_.update(limiter_, 2);
+        isListed_[e] = 0;
     }
 }
 
+/// Zalesak's limiter with the global bounds 0 and 1: how much of the sums of a node may act, then what acts. One exchange.
 template<int dim>
-void DualCellTransport::update(const Arguments& in, double dt, TransportReport& report)
+void DualCellTransport::limit(TransportReport& report)
 {
     using Pairs = CornerPairs<dim>;
     const auto forAllPairs = [&](auto&& act) {
-        for (std::size_t k = 0; k < nInnerActive_; ++k)
+        for (std::size_t k = 0; k < active_.size(); ++k)
         {
-            const int* nodes = &mesh_.elements[std::size_t(activeElements_[k])*(dim + 1)];
+            const int* nodes = &mesh_.elements[std::size_t(stored_[active_[k]])*(dim + 1)];
             for (int p = 0; p < Pairs::count; ++p)
             {
                 const double flux = antiFlux_[k*Pairs::count + p];
                 if (flux != 0)
                 {
                     act(flux > 0 ? nodes[Pairs::first[p]] : nodes[Pairs::second[p]],
-                        flux > 0 ? nodes[Pairs::second[p]] : nodes[Pairs::first[p]], std::abs(flux), activeElements_[k]);
+                        flux > 0 ? nodes[Pairs::second[p]] : nodes[Pairs::first[p]], std::abs(flux), stored_[active_[k]]);
                 }
             }
         }
@@ -202,71 +249,107 @@ void DualCellTransport::update(const Arguments& in, double dt, TransportReport& 
         limiter_[2*std::size_t(to)] += flux;
         limiter_[2*std::size_t(from) + 1] += flux;
     });
-    limit(in, dt);
-    forAllPairs([&](int from, int to, double flux, int e) {
-        const double factor = std::min(limiter_[2*std::size_t(to)], limiter_[2*std::size_t(from) + 1]);
-        gain_[to] += factor*flux;
-        gain_[from] -= factor*flux;
-        report.nLimited += factor < 1 && (1 - factor)*flux*dt > reportedLimit*mesh_.volume[e] && mesh_.isOwnedElement[e];
-    });
     for (int i : activeNodes_)
     {
-        if (i < mesh_.nOwned)
+        double* l = &limiter_[2*std::size_t(i)];
+        l[0] = l[0] > 0 ? std::min(1., std::max(0., volume_[i] - liquid_[i])/l[0]) : 1;
+        l[1] = l[1] > 0 ? std::min(1., std::max(0., liquid_[i])/l[1]) : 1;
+    }
+    if (halo_.size() > 1)
+    {
+        halo_.update(limiter_, 2);
+    }
+    forAllPairs([&](int from, int to, double flux, int e) {
+        const double factor = std::min(limiter_[2*std::size_t(to)], limiter_[2*std::size_t(from) + 1]);
+        liquid_[to] += factor*flux;
+        liquid_[from] -= factor*flux;
+        const int level = largestLevel_ == 0 ? 0 : elementLevel(e);
+        if (isMeeting_[to] && level_[to] == level) firstLiquid_[to] += factor*flux;
+        if (isMeeting_[from] && level_[from] == level) firstLiquid_[from] -= factor*flux;
+        report.nLimited += factor < 1 && (1 - factor)*flux > reportedLimit*mesh_.volume[e] && mesh_.isOwnedElement[e];
+    });
+}
+
+void DualCellTransport::closeCells(const Arguments& in, const Part& part, TransportReport& report)
+{
+    for (int i : openNodes_)
+    {
+        isOpen_[i] = 0;
+        if (i >= mesh_.nOwned)
         {
-            const double value = in.alpha[i] + gain_[i]*dt/effectiveVolume(i);
-            report.minAlpha = std::min(report.minAlpha, value);
-            report.maxAlpha = std::max(report.maxAlpha, value);
+            continue;
+        }
+        const double value = liquid_[i]/volume_[i];
+        report.minAlpha = std::min(report.minAlpha, value);
+        report.maxAlpha = std::max(report.maxAlpha, value);
+        in.alpha[i] = upwind_[i] = std::clamp(value, 0., 1.);
+    }
+    for (int l = 0; l < largestLevel_; ++l)
+    {
+        const int length = 1 << (largestLevel_ - l), elapsed = (part.index + 1) % length;
+        for (int i : meeting_[l])
+        {
+            if (i >= mesh_.nOwned)
+            {
+                continue;
+            }
+            const double ahead = elapsed == 0 ? 0 : 1 - double(elapsed)/length;
+            const double volume = volume_[i] - ahead*firstVolume_[i];
+            const double value = volume > 0 ? (liquid_[i] - ahead*firstLiquid_[i])/volume : upwind_[i];
             in.alpha[i] = std::clamp(value, 0., 1.);
         }
     }
     halo_.update(in.alpha, 1);
-}
-
-void DualCellTransport::countBoundary(const std::vector<double>& alpha, double dt, TransportReport& report) const
-{
-    for (const BoundaryFlux& b : boundary_.fluxes())
+    if (halo_.size() > 1)
     {
-        const double own = alpha[b.node];
-        if (b.flux > 0)
+        halo_.update(upwind_, 1);
+    }
+    for (int i : openNodes_)
+    {
+        findPhases(in.alpha, i, i + 1);
+    }
+    for (const std::vector<int>& nodes : meeting_)
+    {
+        for (int i : nodes)
         {
-            report.outflow += dt*b.flux*own;
-        }
-        else
-        {
-            report.inflow -= dt*b.flux*(b.alphaIn >= 0 ? b.alphaIn : own);
+            findPhases(in.alpha, i, i + 1);
         }
     }
+    findPhases(in.alpha, mesh_.nOwned, mesh_.nNodes);
+    openNodes_.clear();
+}
+
+template<int dim>
+void DualCellTransport::advancePart(const Arguments& in, const Part& part, TransportReport& report)
+{
+    openCells(in, part);
+    findActive<dim>(part);
+    addBoundary(in, part, report);
+    addUpwind<dim>(in, part);
+    addPairs(in, part);
+    reconstruction_.build(in.alpha, aroundActive_, activeNodes_, in.cover);
+    if (part.level == 0)
+    {
+        report.nRoof = reconstruction_.nRoofs();
+        report.nBand = reconstruction_.nFronts() + reconstruction_.nRoofs();
+    }
+    addFaceValues<dim>(in);
+    if (in.mobility > 0)
+    {
+        addModelFlux<dim>(in);
+    }
+    limit<dim>(report);
+    closeCells(in, part, report);
 }
 
 template<int dim>
 void DualCellTransport::advanceAll(const Arguments& in, TransportReport& report)
 {
-    double mobility = 0;
-    if (controls_.mobility > 0)
+    findLevels<dim>(in);
+    report.subSteps = 1 << largestLevel_;
+    for (int k = 0; k < report.subSteps; ++k)
     {
-        mobility = controls_.mobility*largestSpeed(mesh_, halo_, in.u);
-    }
-    double remaining = in.dt;
-    while (remaining > 0)
-    {
-        findActive(in.alpha, in.pairFlux);
-        clearSums();
-        storeVolumeFluxes<dim>(in);
-        addBoundaryInflow(in.alpha);
-        const double rate = largestRate(in);
-        const int nLeft = std::max(1, static_cast<int>(std::ceil(remaining*rate/controls_.transportCourant - 1e-9)));
-        const double dt = remaining/nLeft;
-
-        reconstruction_.build(in.alpha, activeElements_, activeNodes_, in.cover);
-        addFaceValues<dim>(in, dt);
-        if (mobility > 0)
-        {
-            addModelFlux<dim>(in, mobility);
-        }
-        countBoundary(in.alpha, dt, report);
-        update<dim>(in, dt, report);
-        remaining = nLeft == 1 ? 0 : remaining - dt;
-        ++report.subSteps;
+        advancePart<dim>(in, partAt(k), report);
     }
 }
 
@@ -280,7 +363,8 @@ TransportReport DualCellTransport::advance(std::vector<double>& alpha, double dt
     report.liquidBefore = cover && std::isfinite(liquidVolume_) ? liquidVolume_ : measured;
 
     boundary_.evaluate(u, fineScale, cover, patches, values, isPressureFixed, pairFlux);
-    const Arguments arguments{alpha, dt, u, fineScale, cover, pairFlux};
+    const double mobility = controls_.mobility > 0 ? controls_.mobility*largestSpeed(mesh_, halo_, u) : 0;
+    const Arguments arguments{alpha, dt, u, fineScale, cover, pairFlux, mobility};
     if (mesh_.dim == 2)
     {
         advanceAll<2>(arguments, report);
@@ -290,8 +374,8 @@ TransportReport DualCellTransport::advance(std::vector<double>& alpha, double dt
         advanceAll<3>(arguments, report);
     }
 
-    double sums[5] = {report.inflow, report.outflow, double(report.nLimited), double(reconstruction_.nRoofs()),
-        double(reconstruction_.nFronts() + reconstruction_.nRoofs())};
+    double sums[5] = {report.inflow, report.outflow, double(report.nLimited), double(report.nRoof),
+        double(report.nBand)};
     halo_.sum(sums, 5);
     report.inflow = sums[0];
     report.outflow = sums[1];

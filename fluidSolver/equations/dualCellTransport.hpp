@@ -2,6 +2,11 @@
 /// Conservative transport of the phase field on median dual cells (docs/numerics.md, section 4):
 /// the face value is the model's own equilibrium profile alpha = 1/(1+exp(-psi/delta)), |grad psi| = 1,
 /// reconstructed in the upwind dual cell (THINC-type), with piecewise "roof" cells where neighbouring normals disagree.
+///
+/// Local time steps: a node whose dual cell exchanges more than `transportCourant` of its volume in the step advances in 2^level
+/// parts, an element in as many as its most demanding node. Lower levels exchange first. Between the levels' common times a
+/// node carries the liquid and the whole volume it holds; their ratio is the upwind value: conservative, and bounded because no part
+/// takes more than a cell holds. alpha itself then leaves out the share of the first exchange that belongs to later times.
 #pragma once
 
 #include "algebra/halo.hpp"
@@ -12,6 +17,8 @@
 #include "equations/transportReport.hpp"
 #include "equations/volumeFlux.hpp"
 #include "geometry/cover.hpp"
+
+#include <cmath>
 
 namespace flotsam
 {
@@ -49,7 +56,7 @@ public:
     void setLiquidVolume(double volume) { liquidVolume_ = volume; }
 
 private:
-    /// What every sub-step reads; alpha is advanced in place.
+    /// What every part of the step reads; alpha is advanced in place.
     struct Arguments
     {
         std::vector<double>& alpha;
@@ -58,20 +65,44 @@ private:
         const std::vector<double>& fineScale;
         const Cover* cover;
         const std::vector<PairFlux>& pairFlux;
+        double mobility;    // [m/s]
     };
-    template<int dim> void advanceAll(const Arguments& arguments, TransportReport& report);
-    void findActive(const std::vector<double>& alpha, const std::vector<PairFlux>& pairFlux);
-    template<int dim> void storeVolumeFluxes(const Arguments& arguments);
-    void clearSums();
-    void addBoundaryInflow(const std::vector<double>& alpha);
-    double largestRate(const Arguments& arguments);
-    template<int dim> void addFaceValues(const Arguments& arguments, double dt);
-    template<int dim> void addModelFlux(const Arguments& arguments, double mobility);
-    void limit(const Arguments& arguments, double dt);
-    template<int dim> void update(const Arguments& arguments, double dt, TransportReport& report);
-    void countBoundary(const std::vector<double>& alpha, double dt, TransportReport& report) const;
+    template<int dim> void advanceAll(const Arguments& in, TransportReport& report);
     void useCover(const Cover* cover);
     double effectiveVolume(int i) const;
+
+    // levels (transportLevels.cpp)
+    template<int dim> void findLevels(const Arguments& in);
+    template<int dim> void sumElementRates(const Arguments& in);
+    void sumOtherRates(const Arguments& in);
+    void findNodeLevels(const Arguments& in);
+    template<int dim> void sortElements(const Arguments& in);
+    template<int dim> void storeElement(const Arguments& in, std::size_t position, int e);
+    void findPhases(const std::vector<double>& alpha, int begin, int end);
+    int elementLevel(int e) const;
+    bool isBulk(int e) const;
+
+    // one part of the step: the elements of a level and above
+    struct Part
+    {
+        int index;      // 0 .. 2^largestLevel_ - 1
+        int level;      // begins a time step of its own, as all higher levels do
+    };
+    Part partAt(int index) const;
+    template<int dim> void advancePart(const Arguments& in, const Part& part, TransportReport& report);
+    void openCells(const Arguments& in, const Part& part);
+    template<int dim> void addUpwind(const Arguments& in, const Part& part);
+    void addBoundary(const Arguments& in, const Part& part, TransportReport& report);
+    void addPairs(const Arguments& in, const Part& part);
+    template<int dim> void findActive(const Part& part);
+    void findAround();
+    template<int dim> void addFaceValues(const Arguments& in);
+    template<int dim> void addModelFlux(const Arguments& in);
+    template<int dim> void limit(TransportReport& report);
+    void closeCells(const Arguments& in, const Part& part, TransportReport& report);
+    double timeStep(const Arguments& in, int level) const { return std::ldexp(in.dt, -level); }
+    void fill(int node, double volume, double alpha) { volume_[node] += volume; liquid_[node] += volume*alpha; }
+    void open(int node) { if (!isOpen_[node]) { isOpen_[node] = 1; openNodes_.push_back(node); } }
 
     const SimplexMesh& mesh_;
     const NodeGraph& graph_;
@@ -85,15 +116,33 @@ private:
     double liquidVolume_;
     bool hasSolids_ = false;
 
-    // where alpha varies, renewed every sub-step
+    // one step
     std::vector<char> phase_;               // per node: 0 empty, 1 full, 2 between
-    std::vector<int> activeElements_;       // inner elements first
-    std::size_t nInnerActive_ = 0;
-    std::vector<int> activeNodes_;          // owned and first-ring nodes of the inner active elements and of the inflow
-    std::vector<char> isActiveNode_;
-    std::vector<double> flux_, antiFlux_;   // per inner active element and pair of its corners
-    std::vector<double> inflowSum_, gain_;  // per node: sum of inflow [m^dim/s]; upwind change of alpha times volume
+    std::vector<double> inflow_, outflow_;  // per node: sums [m^dim/s]
+    std::vector<double> rest_;              // per node: inflow - outflow of the elements that are not stored
+    std::vector<int> level_;                // per node
+    int largestLevel_ = 0;                  // of all ranks
+    std::vector<int> stored_;               // inner elements by level: those that alpha varies in (level 0), all (others)
+    std::vector<std::size_t> storedStart_;  // per level, and the end
+    std::vector<double> flux_;              // per stored element and pair of its corners, first to second [m^dim/s]
+    std::vector<int> steppedNodes_;         // nodes of level 1 and above, by falling level
+    std::vector<int> steppedPairs_;         // pairs with such a node
+    std::vector<double> liquid_, volume_;   // per owned node: what its cell holds at this moment [m^dim]
+    std::vector<double> upwind_;            // per node: their ratio
+    std::vector<std::vector<int>> meeting_; // per level: nodes of it in elements of higher levels
+    std::vector<char> isMeeting_;
+    std::vector<double> firstLiquid_, firstVolume_; // of those: what their own level has exchanged for the whole of its time step
+
+    // one part of it
+    std::vector<std::size_t> active_;       // positions in stored_ of acting elements that alpha varies in
+    std::vector<int> activeLevel_;          // their levels
+    std::vector<int> aroundActive_;         // elements that alpha varies in and that touch activeNodes_
+    std::vector<int> activeNodes_;          // owned and first-ring nodes of the acting elements that alpha varies in
+    std::vector<char> isActiveNode_, isListed_;     // the latter: elements in aroundActive_
+    std::vector<double> antiFlux_;          // per active element and pair: liquid beyond the upwind value [m^dim]
     std::vector<double> limiter_;           // per node: {increase, decrease}: first sums, then factors
+    std::vector<int> openNodes_;            // nodes whose alpha may change
+    std::vector<char> isOpen_;
 };
 
 } // namespace flotsam

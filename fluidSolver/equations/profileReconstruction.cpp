@@ -75,7 +75,8 @@ double roofValue(const RoofPart* parts, int nParts, double alpha)
 ProfileReconstruction::ProfileReconstruction(const SimplexMesh& mesh, const NodeGraph& graph, const DualCells& cells,
     const std::vector<double>& width)
     : mesh_(mesh), graph_(graph), cells_(cells), width_(width), moments_(ShareMoments::of(mesh.dim)), profile_(mesh.nNodes),
-      level_(mesh.nNodes), normalSum_(std::size_t(mesh.nNodes)*mesh.dim), coherence_(mesh.nNodes)
+      level_(mesh.nNodes), normalSum_(std::size_t(mesh.nNodes)*mesh.dim), coherence_(mesh.nNodes),
+      hasLevel_(mesh.nNodes, 0)
 {
 }
 
@@ -86,6 +87,11 @@ void ProfileReconstruction::sumNormals(const std::vector<double>& alpha, const s
     constexpr double clip = 1e-4;   // the same tail value whatever round-off has left in the bulk
     const double floorLevel = std::log(clip/(1 - clip));
     bandElements_.clear();
+    for (int i : levelNodes_)
+    {
+        hasLevel_[i] = 0;
+    }
+    levelNodes_.clear();
     for (int e : elements)
     {
         const int* nodes = &mesh_.elements[std::size_t(e)*n];
@@ -97,6 +103,12 @@ void ProfileReconstruction::sumNormals(const std::vector<double>& alpha, const s
         for (int a = 0; a < n; ++a)
         {
             const int i = nodes[a];
+            if (hasLevel_[i])
+            {
+                continue;
+            }
+            hasLevel_[i] = 1;
+            levelNodes_.push_back(i);
             const double q = alpha[i];
             level_[i] = width_[i]*(q <= clip ? floorLevel : q >= 1 - clip ? -floorLevel : std::log(q/(1 - q)));
             coherence_[i] = 0;

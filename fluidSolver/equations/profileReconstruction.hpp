@@ -74,7 +74,8 @@ private:
     ShareMoments moments_;
     std::vector<NodeProfile> profile_;
     std::vector<double> level_, normalSum_, coherence_;
-    std::vector<int> bandElements_;
+    std::vector<int> bandElements_, levelNodes_;   // elements with a node in the band; their nodes
+    std::vector<char> hasLevel_;
     long nFronts_ = 0, nRoofs_ = 0;
 };
 

@@ -6,11 +6,16 @@ Needs no OpenFOAM: python3-vtk9, python3-h5py, python3-numpy. Pictures are in fl
 
 import functools
 import os
+import sys
 
-import h5py
-import numpy as np
-import vtkmodules.all as vtk
-from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+try:
+    import h5py
+    import numpy as np
+    import vtkmodules.all as vtk
+    from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+except ImportError as error:
+    sys.exit(f"{sys.executable}: {error}.\nNeeded: python3-numpy python3-h5py python3-vtk9 python3-matplotlib of the distribution and its "
+             "interpreter, usually /usr/bin/python3; . scripts/environment.sh finds it as $FLOTSAM_PYTHON.")
 
 ALPHA = "alpha.water"
 NODAL = {ALPHA: "pointAlpha", "U": "pointU", "p": "pointP"}  # nodal twin of a volume field, where the solver wrote one

@@ -53,7 +53,8 @@ class Report:
 
     def _add(self, what, value, reference, error, tolerance, unit, good, source):
         if good is not None and not (good and math.isfinite(value)):
-            self.failed.append(what)
+            allowed = f"{reference} within {tolerance}" if tolerance else reference
+            self.failed.append(f"{what} is {value:.6g} {unit}".rstrip() + f", allowed {allowed}")
             good = False
         self.rows.append((what, f"{value:.6g}", reference, error, tolerance, unit, {True: "ok", False: "FAILED", None: ""}[good], source))
 
@@ -67,7 +68,7 @@ class Report:
     def end(self):
         print(f"\n{self.title}\n\n{self.table()}\n")
         if self.failed:
-            print("NOT BELIEVABLE: " + "; ".join(self.failed))
+            print("NOT BELIEVABLE:\n  " + "\n  ".join(self.failed))
         else:
             print("All within what is allowed.")
         sys.exit(1 if self.failed else 0)

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a benchmark case is: the folder cases/<name> with an OpenFOAM case (0.orig, constant, system) and case.py, which defines
+
+title, figures   what is computed; {column: (label, unit)} of what errors() returns
+mainError        the column that stands for accuracy in plots and tables; paperFigures: more columns to be plotted
+runs             list of Run: solvers, resolutions, variants
+parameters(run)  entries of system/parameters, included by the case's dictionaries
+prepare(run, do) mesh and start fields: do("blockMesh") runs a command in the case folder; time not counted
+errors(run, folder)  {column: value} from the finished run, the same formula for all solvers
+targets          {column: (value, text)}, may be missing
+"""
+import importlib.util
+import os
+from dataclasses import dataclass, field
+
+
+@dataclass
+class Run:
+    solver: str
+    n: int                      # resolution; what it counts is said by the case
+    variant: str = ""           # names what is not default
+    options: dict = field(default_factory=dict)
+    quick: bool = False         # also with --quick
+    timeLimit: float = 1500     # wall seconds; a run that takes longer is a failed row
+    rebuilt: bool = False       # the mesh is non-orthogonal: interFoam and interIsoFoam as rebuilt by peers/rebuild.sh
+
+    @property
+    def label(self):
+        return self.solver + (" " + self.variant if self.variant else "")
+
+
+def series(solver, sizes, quick=1, **rest):
+    """Runs of one solver at several resolutions, of which the first `quick` are also in the quick set."""
+    return [Run(solver, n, quick=i < quick, **rest) for i, n in enumerate(sizes)]
+
+
+ORDER = ["damBreak2D", "cylinder2D1", "sloshing2D", "hydrostatic", "advection", "heaveCylinder2D", "marin3D"]
+
+
+def names(root):
+    found = [n for n in os.listdir(os.path.join(root, "cases")) if os.path.isfile(os.path.join(root, "cases", n, "case.py"))]
+    return sorted(found, key=lambda n: (ORDER.index(n) if n in ORDER else len(ORDER), n))
+
+
+def load(root, name):
+    path = os.path.join(root, "cases", name)
+    if not os.path.isfile(os.path.join(path, "case.py")):
+        raise SystemExit(f"benchmarks/run: no case '{name}'; there are: {', '.join(names(root))}")
+    spec = importlib.util.spec_from_file_location(name, os.path.join(path, "case.py"))
+    case = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(case)
+    case.name, case.folder, case.root = name, path, root
+    return case

@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Markdown table and plot of a case: error against CPU seconds, and our time to reach a peer's error."""
+import os
+
+import numpy as np
+
+from . import table
+
+OURS = ("flotsamFoam", "transportTable")
+
+
+def label(row):
+    return row["solver"] + (" " + row["variant"] if row["variant"] else "")
+
+
+def isOurs(row):
+    return row["solver"] in OURS
+
+
+def _curves(rows, column):
+    """{label: (cpu, |error|, N)} of the runs that went well, by increasing time."""
+    curves = {}
+    for row in rows:
+        cpu, error = table.number(row, "cpu"), table.number(row, column)
+        if row["status"] == "ok" and cpu and error is not None:
+            curves.setdefault(label(row), []).append((cpu, abs(error), int(row["N"])))
+    return {name: sorted(points) for name, points in curves.items()}
+
+
+def _timeToReach(points, error):
+    """CPU seconds at which a curve reaches an error: linear between its points in logarithms, each point counting with the best
+    error of those before it. Returns (seconds, sign): '<' when the cheapest run is already better, '>' when none is."""
+    best, envelope = np.inf, []
+    for cpu, e, _ in points:
+        best = min(best, e)
+        envelope.append((cpu, max(best, 1e-300)))
+    if envelope[0][1] <= error:
+        return envelope[0][0], "<"
+    for (c0, e0), (c1, e1) in zip(envelope, envelope[1:]):
+        if e1 <= error:
+            weight = np.log(e0 / error) / np.log(e0 / e1)
+            return float(np.exp((1 - weight) * np.log(c0) + weight * np.log(c1))), ""
+    return envelope[-1][0], ">"
+
+
+def _markdown(head, lines):
+    cells = [head] + lines
+    width = [max(len(line[i]) for line in cells) for i in range(len(head))]
+    text = ["| " + " | ".join(c.ljust(w) for c, w in zip(line, width)) + " |" for line in cells]
+    return "\n".join([text[0], "|" + "|".join("-" * (w + 2) for w in width) + "|"] + text[1:])
+
+
+def _allRuns(case, rows):
+    head = ["solver", "N", "cells", "nodes", "steps", "CPU s", "us/point/step"]
+    head += [f"{name}{' [' + unit + ']' if unit else ''}" for name, unit in case.figures.values()] + ["commit", ""]
+    lines = []
+    for row in rows:
+        cpu, steps = table.number(row, "cpu"), table.number(row, "steps")
+        points = table.number(row, "nodes") or table.number(row, "cells")
+        pace = f"{1e6 * cpu / points / steps:.2f}" if cpu and points and steps else ""
+        values = ["" if (v := table.number(row, c)) is None else f"{v:.4g}" for c in case.figures]
+        lines.append([label(row), row["N"], row.get("cells", ""), row.get("nodes", ""), row.get("steps", ""),
+                      f"{cpu:.4g}" if cpu else "", pace, *values, row["commit"], "" if row["status"] == "ok" else "FAILED: " + row["status"]])
+    return _markdown(head, lines)
+
+
+def _comparison(case, rows, column):
+    """A line per peer's run and curve of ours."""
+    curves = _curves(rows, column)
+    ourLabels = list(dict.fromkeys(label(r) for r in rows if isOurs(r) and label(r) in curves))
+    peers = [(name, p) for name, points in curves.items() if name not in ourLabels for p in points]
+    lines = []
+    for name, (cpu, error, n) in peers:
+        line = [f"{name} {n}", f"{error:.4g}", f"{cpu:.3g}"]
+        for our in ourLabels:
+            seconds, sign = _timeToReach(curves[our], error)
+            line += [f"{sign} {seconds:.3g}".strip(), f"{sign} {seconds / cpu:.2g}".strip()]
+        lines.append(line)
+    head = ["peer's run", "its error", "its CPU s"]
+    for our in ourLabels:
+        head += [f"{our}: CPU s to that error", "ours / its"]
+    return _markdown(head, lines) if lines and ourLabels else ""
+
+
+def _targets(case, rows):
+    lines = []
+    for column, (limit, text) in getattr(case, "targets", {}).items():
+        for row in rows:
+            value = table.number(row, column)
+            if isOurs(row) and value is not None:
+                lines.append([text, f"{limit:g}", f"{label(row)} {row['N']}", f"{abs(value):.4g}", "reached" if abs(value) <= limit else "not reached"])
+    return _markdown(["target", "at most", "run", "value", ""], lines) if lines else ""
+
+
+def write(case, rows, results):
+    """<case>.md and <case>.png."""
+    if not rows:
+        return
+    parts = [f"# {case.name}", case.title, _allRuns(case, rows)]
+    for column in [case.mainError, *getattr(case, "moreErrors", [])]:
+        comparison = _comparison(case, rows, column)
+        if comparison:
+            parts += [f"## Our CPU time to reach the peer's error: {case.figures[column][0]}", comparison]
+    targets = _targets(case, rows)
+    if targets:
+        parts += ["## Targets", targets]
+    last = rows[-1]
+    parts += [f"![error against CPU seconds]({case.name}.png)", f"Machine: {last['machine']}; flotsamFoam compiled by {last['compiler']}. "
+              f"`<`: our cheapest run is better already; `>`: none of our runs is as good, time of the dearest. Regenerate: `benchmarks/run {case.name}`."]
+    with open(os.path.join(results, case.name + ".md"), "w", encoding="utf-8") as out:
+        out.write("\n\n".join(parts) + "\n")
+    _plot(case, rows, results)
+
+
+def _plot(case, rows, results):
+    import matplotlib
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    columns = [c for c in [case.mainError, *getattr(case, "moreErrors", [])] if _curves(rows, c)]
+    if not columns:
+        return
+    ours = {label(r) for r in rows if isOurs(r)}
+    names = list(dict.fromkeys(label(r) for r in rows))
+    colours = {name: f"C{i % 10}" for i, name in enumerate(names)}
+    figure, axes = plt.subplots(1, len(columns), figsize=(5.6 * len(columns), 4.4), dpi=130, squeeze=False)
+    for axis, column in zip(axes[0], columns):
+        for name, points in _curves(rows, column).items():
+            cpu, error, n = zip(*points)
+            axis.loglog(cpu, np.maximum(error, 1e-16), "o-" if name in ours else "s--", color=colours[name], label=name,
+                        linewidth=2.2 if name in ours else 1.2)
+            for x, y, size in points:
+                axis.annotate(str(size), (x, max(y, 1e-16)), textcoords="offset points", xytext=(4, 4), fontsize=7)
+        what, unit = case.figures[column]
+        axis.set_xlabel("CPU seconds of the solver")
+        axis.set_ylabel(what + (f" [{unit}]" if unit else ""))
+        axis.grid(True, which="both", alpha=0.25)
+    axes[0][0].legend(fontsize=8)
+    figure.suptitle(case.name, fontsize=11)
+    figure.tight_layout()
+    figure.savefig(os.path.join(results, case.name + ".png"))
+    plt.close(figure)

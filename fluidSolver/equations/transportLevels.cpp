@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Local time steps of the dual-cell transport: who advances in how many parts.
+#include "equations/dualCellTransport.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace flotsam
+{
+
+namespace
+{
+
+/// alpha closer than this to 0 or 1 is bulk: a divergence-free flux changes nothing there.
+constexpr double bulkTolerance = 1e-12;
+constexpr int maxLevel = 10;
+
+} // namespace
+
+void DualCellTransport::findPhases(const std::vector<double>& alpha, int begin, int end)
+{
+    for (int i = begin; i < end; ++i)
+    {
+        phase_[i] = alpha[i] <= bulkTolerance ? 0 : alpha[i] >= 1 - bulkTolerance ? 1 : 2;
+    }
+}
+
+/// alpha does not vary in the element.
+bool DualCellTransport::isBulk(int e) const
+{
+    const int n = mesh_.dim + 1;
+    const int* nodes = &mesh_.elements[std::size_t(e)*n];
+    const char first = phase_[nodes[0]];
+    return first != 2 && std::all_of(nodes + 1, nodes + n, [&](int i) { return phase_[i] == first; });
+}
+
+int DualCellTransport::elementLevel(int e) const
+{
+    const int n = mesh_.dim + 1;
+    const int* nodes = &mesh_.elements[std::size_t(e)*n];
+    int level = 0;
+    for (int a = 0; a < n; ++a)
+    {
+        level = std::max(level, level_[nodes[a]]);
+    }
+    return level;
+}
+
+template<int dim>
+void DualCellTransport::sumElementRates(const Arguments& in)
+{
+    using Pairs = CornerPairs<dim>;
+    constexpr int n = dim + 1;
+    std::fill(inflow_.begin(), inflow_.end(), 0.);
+    std::fill(outflow_.begin(), outflow_.end(), 0.);
+    for (int e = 0; e < mesh_.nInnerElements; ++e)
+    {
+        double flux[Pairs::count], into[n] = {}, outOf[n] = {};
+        volumeFlux_.ofElement<dim>(e, in.u, in.fineScale, in.cover, flux);
+        for (int p = 0; p < Pairs::count; ++p)
+        {
+            const double forward = std::max(flux[p], 0.), backward = std::max(-flux[p], 0.);
+            outOf[Pairs::first[p]] += forward;
+            into[Pairs::second[p]] += forward;
+            into[Pairs::first[p]] += backward;
+            outOf[Pairs::second[p]] += backward;
+        }
+        const int* nodes = &mesh_.elements[std::size_t(e)*n];
+        for (int a = 0; a < n; ++a)
+        {
+            inflow_[nodes[a]] += into[a];
+            outflow_[nodes[a]] += outOf[a];
+        }
+    }
+    for (int i = 0; i < mesh_.nOwned; ++i)
+    {
+        rest_[i] = inflow_[i] - outflow_[i];
+    }
+}
+
+void DualCellTransport::sumOtherRates(const Arguments& in)
+{
+    for (const PairFlux& pair : in.pairFlux)
+    {
+        const int from = pair.flux > 0 ? pair.a : pair.b, to = pair.flux > 0 ? pair.b : pair.a;
+        outflow_[from] += std::abs(pair.flux);
+        inflow_[to] += std::abs(pair.flux);
+    }
+    for (const BoundaryFlux& b : boundary_.fluxes())
+    {
+        (b.flux > 0 ? outflow_ : inflow_)[b.node] += std::abs(b.flux);
+    }
+}
+
+/// Level: parts of the step in which at most transportCourant of the cell's volume flows in.
+void DualCellTransport::findNodeLevels(const Arguments& in)
+{
+    double most = 0;    // share of a cell's volume that flows in during the step
+    for (int i = 0; i < mesh_.nOwned; ++i)
+    {
+        const double share = inflow_[i]*in.dt/effectiveVolume(i);
+        most = std::isfinite(share) ? std::max(most, share) : std::numeric_limits<double>::max();
+        level_[i] = share <= controls_.transportCourant
+            ? 0 : std::min(maxLevel, int(std::ceil(std::log2(share/controls_.transportCourant) - 1e-9)));
+    }
+    most = halo_.max(most);
+    if (most > std::ldexp(controls_.transportCourant, maxLevel))
+    {
+        throw std::runtime_error("phase transport: a dual cell takes in " + std::to_string(most)
+            + " times its volume in one step of " + std::to_string(in.dt) + " s (at most "
+            + std::to_string(std::ldexp(controls_.transportCourant, maxLevel)) + "): the velocity is wrong or the step too long");
+    }
+    largestLevel_ = most <= controls_.transportCourant ? 0 : int(std::ceil(std::log2(most/controls_.transportCourant) - 1e-9));
+    if (halo_.size() > 1)
+    {
+        halo_.update(level_, 1);
+    }
+
+    steppedNodes_.clear();
+    for (int i = 0; i < mesh_.nNodes; ++i)
+    {
+        if (level_[i] > 0)
+        {
+            steppedNodes_.push_back(i);
+        }
+    }
+    std::stable_sort(steppedNodes_.begin(), steppedNodes_.end(), [this](int a, int b) { return level_[a] > level_[b]; });
+    steppedPairs_.clear();
+    for (std::size_t k = 0; k < in.pairFlux.size() && largestLevel_ > 0; ++k)
+    {
+        if (level_[in.pairFlux[k].a] > 0 || level_[in.pairFlux[k].b] > 0)
+        {
+            steppedPairs_.push_back(int(k));
+        }
+    }
+}
+
+template<int dim>
+void DualCellTransport::storeElement(const Arguments& in, std::size_t position, int e)
+{
+    using Pairs = CornerPairs<dim>;
+    stored_[position] = e;
+    double* flux = &flux_[position*Pairs::count];
+    volumeFlux_.ofElement<dim>(e, in.u, in.fineScale, in.cover, flux);
+    const int* nodes = &mesh_.elements[std::size_t(e)*(dim + 1)];
+    for (int p = 0; p < Pairs::count; ++p)
+    {
+        rest_[nodes[Pairs::first[p]]] += flux[p];
+        rest_[nodes[Pairs::second[p]]] -= flux[p];
+    }
+}
+
+template<int dim>
+void DualCellTransport::sortElements(const Arguments& in)
+{
+    storedStart_.assign(largestLevel_ + 2, 0);
+    const auto levelOf = [this](int e) { return largestLevel_ > 0 ? elementLevel(e) : 0; };
+    for (int e = 0; e < mesh_.nInnerElements; ++e)
+    {
+        const int level = levelOf(e);
+        storedStart_[level + 1] += level > 0 || !isBulk(e);
+    }
+    for (int l = 0; l <= largestLevel_; ++l)
+    {
+        storedStart_[l + 1] += storedStart_[l];
+    }
+    stored_.resize(storedStart_.back());
+    flux_.resize(stored_.size()*CornerPairs<dim>::count);
+    for (const std::vector<int>& nodes : meeting_)
+    {
+        for (int i : nodes)
+        {
+            isMeeting_[i] = 0;
+        }
+    }
+    meeting_.assign(largestLevel_ + 1, {});
+    std::vector<std::size_t> next(storedStart_.begin(), storedStart_.end() - 1);
+    for (int e = 0; e < mesh_.nInnerElements; ++e)
+    {
+        const int level = levelOf(e);
+        if (level > 0 || !isBulk(e))
+        {
+            storeElement<dim>(in, next[level]++, e);
+            for (int a = 0; a <= dim && level > 0; ++a)
+            {
+                const int i = mesh_.elements[std::size_t(e)*(dim + 1) + a];
+                if (level_[i] < level && !isMeeting_[i])
+                {
+                    isMeeting_[i] = 1;
+                    meeting_[level_[i]].push_back(i);
+                }
+            }
+        }
+    }
+}
+
+template<int dim>
+void DualCellTransport::findLevels(const Arguments& in)
+{
+    findPhases(in.alpha, 0, mesh_.nNodes);
+    sumElementRates<dim>(in);
+    sumOtherRates(in);
+    findNodeLevels(in);
+    sortElements<dim>(in);
+}
+
+DualCellTransport::Part DualCellTransport::partAt(int index) const
+{
+    Part part{index, index == 0 ? 0 : largestLevel_};
+    for (int k = index; k > 0 && k % 2 == 0; k /= 2)
+    {
+        --part.level;
+    }
+    return part;
+}
+
+template void DualCellTransport::findLevels<2>(const Arguments&);
+template void DualCellTransport::findLevels<3>(const Arguments&);
+
+} // namespace flotsam

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// 200 positions of the walls relative to the mesh: neither errors nor condition numbers spike at any of them.
+#include "support/cutFlows.hpp"
+#include "support/flowCases.hpp"
+#include "support/systemMatrix.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+using namespace flotsam;
+
+namespace
+{
+
+constexpr int nPositions = 200;
+
+/// Median and largest of a sweep.
+struct Spread
+{
+    double median = 0, largest = 0;
+
+    explicit Spread(std::vector<double> values)
+    {
+        std::sort(values.begin(), values.end());
+        median = values[values.size()/2];
+        largest = values.back();
+    }
+    void print(const char* name) const { std::printf("| %s | %.3e | %.3e | %.2f |\n", name, median, largest, largest/median); }
+};
+
+void printHeader(const char* title) { std::printf("\n%s\n| | median | largest | ratio |\n|---|---|---|---|\n", title); }
+
+NumericsControls steadyControls()
+{
+    NumericsControls controls;
+    controls.timeOrder = 1;
+    controls.tolerance = 1e-7;
+    controls.restart = 150;
+    controls.maxIterations = 1000;
+    return controls;
+}
+
+/// Position k: the walls' centre anywhere in one cell in the middle of the mesh.
+Vec3 centreAt(int k, int n) { return Vec3(0.5, 0.5, 0.5) + (haltonPoint(k) - Vec3::Constant(0.5))/n; }
+
+} // namespace
+
+TEST_CASE("errors of the Couette flow between cut cylinders")
+{
+    usePetsc();
+    const int n = 20;
+    const double rho = 1, mu = 0.05;
+    const SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, 2, {n, n, 1}, {0, 0, 0}, {1, 1, 1}, 0.1);
+    const Halo halo(mesh, MPI_COMM_WORLD);
+    FluidProperties fluid;
+    fluid.rhoLiquid = rho;
+    fluid.muLiquid = mu;
+    std::vector<double> velocity, gradient, pressure, torque, nodal;
+    for (int k = 0; k < nPositions; ++k)
+    {
+        AnnularCouette annulus;
+        annulus.innerRadius = 0.2;
+        annulus.outerRadius = 0.42;
+        annulus.centre = centreAt(k, n);
+        ForcedFlow flow(mesh, halo, fluid, steadyControls(), annulus.flow(rho));
+        const std::vector<Solid> solids = annulus.solids();
+        CoverBuilder builder(mesh, flow.graph(), halo);
+        flow.setGeometry(builder.build(solids), solids);
+        REQUIRE(flow.toSteadyState(1e3, 1e-5, 40) < 40);
+        const FlowErrors e = flow.errors();
+        velocity.push_back(e.velocity);
+        gradient.push_back(e.gradient);
+        pressure.push_back(e.pressure);
+        nodal.push_back(e.largest);
+        const double exact = annulus.torque(mu);
+        torque.push_back(std::max(std::abs(flow.load(0)[2]/exact - 1), std::abs(flow.load(1)[2]/exact + 1)));
+    }
+    printHeader("Couette between cut cylinders, n = 20, 200 positions");
+    Spread(velocity).print("u L2");
+    Spread(gradient).print("u H1");
+    Spread(pressure).print("p L2");
+    Spread(torque).print("torque");
+    Spread(nodal).print("largest nodal velocity error");
+    for (const auto* values : {&velocity, &gradient, &pressure, &torque}) CHECK(Spread(*values).largest < 2*Spread(*values).median);
+    CHECK(Spread(nodal).largest < 3*Spread(nodal).median); // a maximum norm
+}
+
+TEST_CASE("condition number of the scaled system")
+{
+    usePetsc();
+    const int n = 16;
+    const SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, 2, {n, n, 1}, {0, 0, 0}, {1, 1, 1}, 0.1);
+    const Halo halo(mesh, MPI_COMM_WORLD);
+    struct Setting { const char* name; double mu, dt; bool hasGhosts; };
+    for (const Setting& setting : {Setting{"viscous, steady", 1, 1e3, true}, Setting{"mu 1e-3, dt 0.01 s", 1e-3, 0.01, true},
+             Setting{"viscous, without ghost penalty", 1, 1e3, false}})
+    {
+        FluidProperties fluid;
+        fluid.rhoLiquid = 1;
+        fluid.muLiquid = setting.mu;
+        NumericsControls controls = steadyControls();
+        if (!setting.hasGhosts) controls.ghostVelocity = controls.ghostConvection = controls.ghostPressure = 0;
+        std::vector<double> conditions;
+        for (int k = 0; k < nPositions; ++k)
+        {
+            FlowAroundBody body;
+            body.centre = centreAt(k, n);
+            const std::vector<Solid> solids = body.solids();
+            controls.maxIterations = 1; // only the matrix is wanted
+            ForcedFlow flow(mesh, halo, fluid, controls, body.flow());
+            CoverBuilder builder(mesh, flow.graph(), halo);
+            flow.setGeometry(builder.build(solids), solids);
+            flow.step(setting.dt);
+            conditions.push_back(conditionNumber(mesh, flow.system(), systemMatrix(mesh, flow.graph(), flow.system())));
+        }
+        const Spread spread(conditions);
+        printHeader("Disc, n = 16, 200 positions: condition number");
+        spread.print(setting.name);
+        if (setting.hasGhosts) CHECK(spread.largest < 2*spread.median);
+    }
+}
+
+TEST_CASE("the constant pressure is the only null vector of a closed box, from both sides")
+{
+    usePetsc();
+    const int n = 8;
+    const SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, 2, {n, n, 1}, {0, 0, 0}, {1, 1, 1}, 0.1);
+    const Halo halo(mesh, MPI_COMM_WORLD);
+    FluidProperties fluid;
+    fluid.rhoLiquid = 1;
+    fluid.muLiquid = 1e-2;
+    const FlowAroundBody body;
+    const std::vector<Solid> solids = body.solids();
+    for (bool isCut : {false, true})
+    {
+        ForcedFlow flow(mesh, halo, fluid, steadyControls(), body.flow());
+        CoverBuilder builder(mesh, flow.graph(), halo);
+        if (isCut) flow.setGeometry(builder.build(solids), solids);
+        flow.step(0.1);
+        const SystemMatrix m = systemMatrix(mesh, flow.graph(), flow.system());
+        const Eigen::JacobiSVD<Eigen::MatrixXd> svd(Eigen::MatrixXd(m.matrix));
+        const Eigen::VectorXd& s = svd.singularValues();
+        CHECK(s[s.size() - 1] < 1e-14*s[0]);
+        CHECK(s[s.size() - 2] > 1e-3*s[0]);
+        CHECK(conditionNumber(mesh, flow.system(), m) == doctest::Approx(s[0]/s[s.size() - 2]).epsilon(0.03));
+        Eigen::VectorXd constant = Eigen::VectorXd::Zero(s.size());
+        for (int i = 0; i < mesh.nNodes; ++i)
+            if (const int k = m.unknown[3*i + 2]; k >= 0) constant[k] = 1/m.scale[k];
+        CHECK((m.matrix*constant).norm() < 1e-13*constant.norm());
+        CHECK((m.matrix.transpose()*constant).norm() < 1e-13*constant.norm());
+    }
+}
