@@ -7,7 +7,7 @@ flotsam_test(heldBody verification SOURCES verification/heldBody.cpp
   LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
 
 add_library(flotsam_flow_support STATIC support/forcedFlow.cpp support/manufactured.cpp support/cutFlows.cpp
-  support/systemMatrix.cpp)
+  support/systemMatrix.cpp support/budgets.cpp)
 target_link_libraries(flotsam_flow_support PUBLIC flotsam_equations flotsam_test_support doctest::doctest)
 
 flotsam_test(manufactured verification SOURCES verification/manufactured.cpp LIBRARIES flotsam_flow_support)
@@ -18,3 +18,5 @@ flotsam_test(timeOrder verification SOURCES verification/timeOrder.cpp LIBRARIES
 flotsam_test(taylorGreen verification SOURCES verification/taylorGreen.cpp LIBRARIES flotsam_flow_support RANKS 1 2)
 flotsam_test(cavity verification SOURCES verification/cavity.cpp LIBRARIES flotsam_flow_support RANKS 1 2)
 flotsam_test(addedMass verification SOURCES verification/addedMass.cpp LIBRARIES flotsam_flow_support)
+flotsam_test(neutralBody verification SOURCES verification/neutralBody.cpp LIBRARIES flotsam_flow_support RANKS 1 2)
+flotsam_test(budgets verification SOURCES verification/budgets.cpp LIBRARIES flotsam_flow_support flotsam_coupling RANKS 1 2)

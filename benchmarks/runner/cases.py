@@ -2,12 +2,13 @@
 """What a benchmark case is: the folder cases/<name> with an OpenFOAM case (0.orig, constant, system) and case.py, which defines
 
 title, figures   what is computed; {column: (label, unit)} of what errors() returns
-mainError        the column that stands for accuracy in plots and tables; paperFigures: more columns to be plotted
+mainError        the column that stands for accuracy in plots and tables; moreErrors: further such columns, may be missing
 runs             list of Run: solvers, resolutions, variants
 parameters(run)  entries of system/parameters, included by the case's dictionaries
 prepare(run, do) mesh and start fields: do("blockMesh") runs a command in the case folder; time not counted
 errors(run, folder)  {column: value} from the finished run, the same formula for all solvers
 targets          {column: (value, text)}, may be missing
+variantsAreProblems  True: a variant is another problem, compared with the same variant of the others only; may be missing
 """
 import importlib.util
 import os

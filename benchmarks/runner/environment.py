@@ -66,7 +66,15 @@ def _compiler(root):
 
 
 def provenance(root):
-    """Commit (with a + for changes that are not committed), machine and compiler."""
-    commit = _output(["git", "rev-parse", "--short", "HEAD"], root)
-    changed = _output(["git", "status", "--porcelain", "--untracked-files=no", "--", "../fluidSolver", "../demCoupling"], root)
-    return {"commit": commit + ("+" if changed else ""), "machine": _machine(), "compiler": _compiler(root)}
+    """Commit of the program, machine and compiler. A + after the commit: sources have changed since it, or the program is older than it.
+    FLOTSAM_COMMIT says it for a program built from another folder."""
+    commit = os.environ.get("FLOTSAM_COMMIT")
+    if not commit:
+        commit = _output(["git", "rev-parse", "--short", "HEAD"], root)
+        sources = ["../fluidSolver", "../demCoupling"]
+        changed = _output(["git", "status", "--porcelain", "--untracked-files=no", "--", *sources], root)
+        last = _output(["git", "log", "-1", "--format=%ct", "--", *sources], root)
+        binary = os.path.join(_buildFolder(root), "bin", "flotsamFoam")
+        isOld = os.path.isfile(binary) and last and os.path.getmtime(binary) < float(last)
+        commit += "+" if changed or isOld else ""
+    return {"commit": commit, "machine": _machine(), "compiler": _compiler(root)}

@@ -67,8 +67,13 @@ def _timed(case, run, folder):
         isLate = threading.Event()
         watch = threading.Timer(run.timeLimit, lambda: (isLate.set(), process.kill()))
         watch.start()
-        _, state, usage = os.wait4(process.pid, 0)
-        watch.cancel()
+        try:
+            _, state, usage = os.wait4(process.pid, 0)
+        except BaseException:       # the series is stopped: so is its solver
+            process.kill()
+            raise
+        finally:
+            watch.cancel()
         process.returncode = os.waitstatus_to_exitcode(state)
     if isLate.is_set():
         raise RunFailed(f"stopped after {run.timeLimit:g} s at t = {_lastTime(log)} s")

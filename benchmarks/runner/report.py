@@ -65,21 +65,18 @@ def _allRuns(case, rows):
 
 
 def _comparison(case, rows, column):
-    """A line per peer's run and curve of ours."""
+    """A line per peer's run and curve of ours; where a case has groups (variants that are problems of their own), within the group."""
     curves = _curves(rows, column)
-    ourLabels = list(dict.fromkeys(label(r) for r in rows if isOurs(r) and label(r) in curves))
-    peers = [(name, p) for name, points in curves.items() if name not in ourLabels for p in points]
+    group = {label(r): r["variant"] if getattr(case, "variantsAreProblems", False) else "" for r in rows}
+    ours = [name for name in dict.fromkeys(label(r) for r in rows if isOurs(r)) if name in curves]
     lines = []
-    for name, (cpu, error, n) in peers:
-        line = [f"{name} {n}", f"{error:.4g}", f"{cpu:.3g}"]
-        for our in ourLabels:
-            seconds, sign = _timeToReach(curves[our], error)
-            line += [f"{sign} {seconds:.3g}".strip(), f"{sign} {seconds / cpu:.2g}".strip()]
-        lines.append(line)
-    head = ["peer's run", "its error", "its CPU s"]
-    for our in ourLabels:
-        head += [f"{our}: CPU s to that error", "ours / its"]
-    return _markdown(head, lines) if lines and ourLabels else ""
+    for name in [n for n in curves if n not in ours]:
+        for cpu, error, n in curves[name]:
+            for our in [o for o in ours if group[o] == group[name]]:
+                seconds, sign = _timeToReach(curves[our], error)
+                lines.append([f"{name}, N {n}", f"{error:.4g}", f"{cpu:.3g}", our, f"{sign} {seconds:.3g}".strip(), f"{sign} {seconds / cpu:.2g}".strip()])
+    head = ["peer's run", "its error", "its CPU s", "ours", "CPU s to that error", "ours / its"]
+    return _markdown(head, lines) if lines else ""
 
 
 def _targets(case, rows):

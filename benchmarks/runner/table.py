@@ -29,12 +29,16 @@ class Rows:
         self._columns = BEFORE + list(case.figures) + AFTER
         self._order = {(r.solver, r.variant, r.n): i for i, r in enumerate(case.runs)}
         self._rows = {}
-        if os.path.isfile(path):
-            with open(path, newline="", encoding="utf-8") as file:
+        self._read()
+
+    def _read(self):
+        if os.path.isfile(self._path):
+            with open(self._path, newline="", encoding="utf-8") as file:
                 self._rows = {key(row): row for row in csv.DictReader(file)}
 
     def put(self, row):
         """Stores at once: a long series that is stopped keeps what it has."""
+        self._read()
         self._rows[key(row)] = {column: shown(row.get(column, "")) for column in self._columns}
         with open(self._path, "w", newline="", encoding="utf-8") as file:
             writer = csv.DictWriter(file, self._columns, extrasaction="ignore", restval="")

@@ -28,7 +28,7 @@ DualCellTransport::DualCellTransport(const SimplexMesh& mesh, const NodeGraph& g
       boundary_(mesh, graph, volumeFlux_), liquidVolume_(std::numeric_limits<double>::quiet_NaN()), phase_(mesh.nNodes),
       inflow_(mesh.nNodes), outflow_(mesh.nNodes), rest_(mesh.nNodes), level_(mesh.nNodes), liquid_(mesh.nNodes),
       volume_(mesh.nNodes), upwind_(mesh.nNodes), isMeeting_(mesh.nNodes, 0), firstLiquid_(mesh.nNodes),
-      firstVolume_(mesh.nNodes), isActiveNode_(mesh.nNodes, 0), isListed_(mesh.nElements, 0), limiter_(2*std::size_t(mesh.nNodes)),
+      firstVolume_(mesh.nNodes), storedAt_(mesh.nElements, -1), isActiveNode_(mesh.nNodes, 0), isListed_(mesh.nElements, 0), limiter_(2*std::size_t(mesh.nNodes)),
       isOpen_(mesh.nNodes, 0)
 {
 }
@@ -106,6 +106,7 @@ void DualCellTransport::addUpwind(const Arguments& in, const Part& part)
                 const double volume = dt*flux_[k*Pairs::count + p], alpha = upwind_[volume > 0 ? a : b];
                 fill(a, -volume, alpha);
                 fill(b, volume, alpha);
+                liquidFlux_[k*Pairs::count + p] += volume*alpha/in.dt;
             }
         }
         for (int i : meeting_[l])
@@ -227,7 +228,7 @@ void DualCellTransport::findAround()
 
 /// Zalesak's limiter with the global bounds 0 and 1: how much of the sums of a node may act, then what acts. One exchange.
 template<int dim>
-void DualCellTransport::limit(TransportReport& report)
+void DualCellTransport::limit(const Arguments& in, TransportReport& report)
 {
     using Pairs = CornerPairs<dim>;
     const auto forAllPairs = [&](auto&& act) {
@@ -240,12 +241,13 @@ void DualCellTransport::limit(TransportReport& report)
                 if (flux != 0)
                 {
                     act(flux > 0 ? nodes[Pairs::first[p]] : nodes[Pairs::second[p]],
-                        flux > 0 ? nodes[Pairs::second[p]] : nodes[Pairs::first[p]], std::abs(flux), stored_[active_[k]]);
+                        flux > 0 ? nodes[Pairs::second[p]] : nodes[Pairs::first[p]], flux, k, p);
                 }
             }
         }
     };
-    forAllPairs([&](int from, int to, double flux, int) {
+    forAllPairs([&](int from, int to, double signedFlux, std::size_t, int) {
+        const double flux = std::abs(signedFlux);
         limiter_[2*std::size_t(to)] += flux;
         limiter_[2*std::size_t(from) + 1] += flux;
     });
@@ -259,10 +261,13 @@ void DualCellTransport::limit(TransportReport& report)
     {
         halo_.update(limiter_, 2);
     }
-    forAllPairs([&](int from, int to, double flux, int e) {
+    forAllPairs([&](int from, int to, double signedFlux, std::size_t k, int p) {
+        const double flux = std::abs(signedFlux);
+        const int e = stored_[active_[k]];
         const double factor = std::min(limiter_[2*std::size_t(to)], limiter_[2*std::size_t(from) + 1]);
         liquid_[to] += factor*flux;
         liquid_[from] -= factor*flux;
+        liquidFlux_[active_[k]*Pairs::count + p] += factor*signedFlux/in.dt;
         const int level = largestLevel_ == 0 ? 0 : elementLevel(e);
         if (isMeeting_[to] && level_[to] == level) firstLiquid_[to] += factor*flux;
         if (isMeeting_[from] && level_[from] == level) firstLiquid_[from] -= factor*flux;
@@ -338,7 +343,7 @@ void DualCellTransport::advancePart(const Arguments& in, const Part& part, Trans
     {
         addModelFlux<dim>(in);
     }
-    limit<dim>(report);
+    limit<dim>(in, report);
     closeCells(in, part, report);
 }
 
@@ -351,6 +356,16 @@ void DualCellTransport::advanceAll(const Arguments& in, TransportReport& report)
     {
         advancePart<dim>(in, partAt(k), report);
     }
+}
+
+DualCellTransport::ElementFluxes DualCellTransport::fluxes(int e) const
+{
+    if (storedAt_[e] < 0)
+    {
+        return {nullptr, nullptr};
+    }
+    const std::size_t at = std::size_t(storedAt_[e])*(mesh_.dim == 2 ? CornerPairs<2>::count : CornerPairs<3>::count);
+    return {&flux_[at], &liquidFlux_[at]};
 }
 
 TransportReport DualCellTransport::advance(std::vector<double>& alpha, double dt, const std::vector<double>& u,

@@ -42,6 +42,11 @@ public:
         const std::vector<BoundaryPatch>& patches, const std::vector<PatchValues>& values,
         const std::vector<char>& isPressureFixed, const std::vector<PairFlux>& pairFlux = {});
 
+    /// Volume fluxes of the last advance(), means over its step, of an element in which alpha varied: pairs of corners in the
+    /// order of CornerPairs, first to second [m^dim/s]. Null pointers elsewhere. What the momentum must be carried with.
+    struct ElementFluxes { const double* total; const double* liquid; };
+    ElementFluxes fluxes(int e) const;
+
     /// Interface width delta of a node [m]: controls.interfaceWidth times the mean element length around it.
     const std::vector<double>& width() const { return width_; }
 
@@ -98,7 +103,7 @@ private:
     void findAround();
     template<int dim> void addFaceValues(const Arguments& in);
     template<int dim> void addModelFlux(const Arguments& in);
-    template<int dim> void limit(TransportReport& report);
+    template<int dim> void limit(const Arguments& in, TransportReport& report);
     void closeCells(const Arguments& in, const Part& part, TransportReport& report);
     double timeStep(const Arguments& in, int level) const { return std::ldexp(in.dt, -level); }
     void fill(int node, double volume, double alpha) { volume_[node] += volume; liquid_[node] += volume*alpha; }
@@ -124,6 +129,8 @@ private:
     int largestLevel_ = 0;                  // of all ranks
     std::vector<int> stored_;               // inner elements by level: those that alpha varies in (level 0), all (others)
     std::vector<std::size_t> storedStart_;  // per level, and the end
+    std::vector<int> storedAt_;             // per element: position in stored_, -1
+    std::vector<double> liquidFlux_;        // like flux_: of the liquid, mean over the step
     std::vector<double> flux_;              // per stored element and pair of its corners, first to second [m^dim/s]
     std::vector<int> steppedNodes_;         // nodes of level 1 and above, by falling level
     std::vector<int> steppedPairs_;         // pairs with such a node

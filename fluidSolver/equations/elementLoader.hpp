@@ -4,6 +4,7 @@
 
 #include "equations/elementTerms.hpp"
 #include "equations/flowStep.hpp"
+#include "equations/materials.hpp"
 #include "equations/stabilisation.hpp"
 
 #include <algorithm>
@@ -24,10 +25,53 @@ struct NodalData
 /// order formula of a density that falls a thousandfold within two steps is a negative mass.
 constexpr double steepDensity = 1.5;
 
+/// Where the density varies a node's own density counts for its mass (momentum then moves with the mass of its dual cell), except for this share
+/// of the element's mean: gravity acts on the mean, and a gas node beside water must not fall a thousand times as fast.
+/// docs/numerics.md, section 2, has the table.
+constexpr double meanShare = 0.05;
+
+/// By element means, and by the nodes' values where these count.
+template<int D>
+inline bool isSteep(const ElementData<D>& data, const int* nodes, const NodalData& nodal, double rho1, double rho2)
+{
+    const auto changes = [](double now, double old, double older) {
+        return std::max({now, old, older}) > steepDensity*std::min({now, old, older});
+    };
+    if (!data.isVarying) return changes(data.rho, rho1, rho2);
+    for (int a = 0; a <= D; ++a)
+        if (changes(nodal.rho[nodes[a]], nodal.rhoOld[nodes[a]], nodal.rhoOlder[nodes[a]])) return true;
+    return false;
+}
+
+/// The transport's mass fluxes, moved from the middle of the step to its end with the mean density.
+template<int D>
+inline void loadMassFluxes(const DualCellTransport::ElementFluxes& fluxes, const FluidProperties& fluid, const NumericsControls& controls,
+    ElementData<D>& data)
+{
+    using Pairs = CornerPairs<D>;
+    constexpr int N = D + 1;
+    double ag[N];
+    for (int a = 0; a < N; ++a)
+    {
+        ag[a] = 0;
+        for (int d = 0; d < D; ++d) ag[a] += data.advection[d]*data.gradN[a*D + d];
+        data.massFlux[a*(N + 1)] = 0;
+    }
+    for (int p = 0; p < Pairs::count; ++p)
+    {
+        const int a = Pairs::first[p], b = Pairs::second[p];
+        const double atEnd = data.volume/N*(ag[b] - ag[a]);
+        const double alpha = fluxes.total[p] == 0 ? 0 : std::clamp(fluxes.liquid[p]/fluxes.total[p], 0.0, 1.0);
+        const double flux = density(fluid, controls, alpha)*fluxes.total[p] + data.rho*(atEnd - fluxes.total[p]);
+        data.massFlux[a*N + b] = flux;
+        data.massFlux[b*N + a] = -flux;
+    }
+}
+
 /// False for an element without a fluid part.
 template<int D>
-inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& step, const NumericsControls& controls,
-    const NodalData& nodal, ElementData<D>& data)
+inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& step, const FluidProperties& fluid,
+    const NumericsControls& controls, const NodalData& nodal, ElementData<D>& data)
 {
     constexpr int N = D + 1;
     const CutElement* cut = nullptr;
@@ -54,6 +98,8 @@ inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& 
     const int* nodes = &mesh.elements[std::size_t(e)*N];
     data.gradN = &mesh.gradN[std::size_t(e)*N*D];
     data.rho = data.mu = 0;
+    const DualCellTransport::ElementFluxes fluxes = step.transport && !cut ? step.transport->fluxes(e) : DualCellTransport::ElementFluxes{};
+    data.isVarying = fluxes.total != nullptr;
     double rho1 = 0, rho2 = 0;
     for (int d = 0; d < D; ++d) data.advection[d] = 0;
     const double inverse = 1/data.volume;
@@ -68,17 +114,27 @@ inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& 
         for (int d = 0; d < D; ++d) data.advection[d] += w*nodal.advection[std::size_t(i)*D + d];
     }
     TimeScheme t = step.time;
-    const double heaviest = std::max({data.rho, rho1, rho2}), lightest = std::min({data.rho, rho1, rho2});
-    if (heaviest > steepDensity*lightest) t = TimeScheme::bdf(1, step.time.dt, 0);
+    if (isSteep<D>(data, nodes, nodal, rho1, rho2)) t = TimeScheme::bdf(1, step.time.dt, 0);
     data.c0 = t.c0;
     data.inertia = 0.5*(t.c0*data.rho - t.c1*rho1 - t.c2*rho2);
+    double one[N], two[N];  // densities of the nodes' mass at t^n, t^(n-1)
+    for (int a = 0; a < N; ++a)
+    {
+        const double own = data.isVarying ? 1 - meanShare : 0;
+        const double now = own*nodal.rho[nodes[a]] + (1 - own)*data.rho;
+        one[a] = own*nodal.rhoOld[nodes[a]] + (1 - own)*rho1;
+        two[a] = own*nodal.rhoOlder[nodes[a]] + (1 - own)*rho2;
+        data.nodalInertia[a] = 0.5*(t.c0*now - t.c1*one[a] - t.c2*two[a]);
+        data.densityRate[a] = t.c0*now + t.c1*one[a] + t.c2*two[a];
+    }
+    if (data.isVarying) loadMassFluxes<D>(fluxes, fluid, controls, data);
     for (int a = 0; a < N; ++a)
         for (int d = 0; d < D; ++d)
         {
             const std::size_t k = std::size_t(nodes[a])*D + d;
             const double now = t.c1*step.state->u[k], old = t.c2*step.state->uOld[k];
             data.history[a*D + d] = -(now + old);
-            data.momentumHistory[a*D + d] = -(rho1*now + rho2*old);
+            data.momentumHistory[a*D + d] = -(one[a]*now + two[a]*old);
         }
     double speed = 0;
     for (int d = 0; d < D; ++d) speed += data.advection[d]*data.advection[d];

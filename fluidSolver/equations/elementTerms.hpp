@@ -28,6 +28,10 @@ struct ElementData
     /// 1/2 (c0 rho - c1 rho^n - c2 rho^(n-1)) stays positive when a node turns from water to gas in one step, where
     /// c0 rho + 1/2 drho/dt does not (BDF1: Guermond & Quartapelle 2000, doi 10.1006/jcph.2000.6609).
     double inertia;                     ///< [kg/(m^3 s)]
+    bool isVarying;                     ///< density varies: the mass matrix is lumped and the transport's mass fluxes convect
+    double nodalInertia[N];             ///< like inertia, of the nodes (varying)
+    double massFlux[N*N];               ///< between the nodes' dual cells, a to b [kg/s] (varying)
+    double densityRate[N];              ///< drho/dt at the nodes (their mean if not varying) [kg/(m^3 s)]
     double tau, tauCont;                ///< [s], [Pa s]
     double advection[D];                ///< a: mean over the fluid part [m/s]
     double force[D];                    ///< f [N/m^3]
@@ -55,13 +59,26 @@ struct ElementMatrix
 };
 
 /// Inertia, skew-symmetric convection, its SUPG part: the same scalar on every velocity component.
+/// With a constant density the skew form is 1/2 sum_b (F_ab rho) u_b, F_ab the fluxes between dual cells. Where the density varies,
+/// the transport's own mass fluxes stand there: a uniform velocity then meets no force from density that moves along.
 template<int D>
 inline double scalarMomentum(const ElementData<D>& e, int a, int b)
 {
-    const double mass = e.second[a*(D + 1) + b];
-    return e.inertia*mass
-         + 0.5*e.rho*(e.ag[b]*e.first[a] - e.ag[a]*e.first[b])
+    const double galerkin = e.isVarying
+        ? (a == b ? e.nodalInertia[a]*e.first[a] : 0) + 0.5*e.massFlux[a*(D + 1) + b]
+        : e.inertia*e.second[a*(D + 1) + b] + 0.5*e.rho*(e.ag[b]*e.first[a] - e.ag[a]*e.first[b]);
+    return galerkin
          + e.tau*e.rho*e.ag[a]*(e.c0*e.first[b] + e.volume*e.ag[b]);
+}
+
+/// What a uniform steady velocity 1 leaves of inertia and convection in row a: 1/2 (drho/dt + div of the mass flux), integrated.
+template<int D>
+inline double massDefect(const ElementData<D>& e, int a)
+{
+    if (!e.isVarying) return 0.5*(e.densityRate[a]*e.first[a] - e.rho*e.ag[a]*e.volume);
+    double outflow = 0;
+    for (int b = 0; b <= D; ++b) outflow += e.massFlux[a*(D + 1) + b];
+    return 0.5*(e.densityRate[a]*e.first[a] + outflow);
 }
 
 /// Adds every volume term of node pair (a,b) into its block.
@@ -97,7 +114,8 @@ inline void addSource(const ElementData<D>& e, int a, double* rhs)
         double mass = 0, mean = 0;
         for (int b = 0; b < N; ++b)
         {
-            mass += e.second[a*N + b]*e.momentumHistory[b*D + k];
+            if (!e.isVarying) mass += e.second[a*N + b]*e.momentumHistory[b*D + k];
+            else if (a == b) mass += e.first[a]*e.momentumHistory[b*D + k];
             mean += e.first[b]*e.history[b*D + k];
         }
         rhs[k] = mass + e.rho*e.tau*e.ag[a]*mean + (e.first[a] + e.tau*e.ag[a]*e.volume)*e.force[k];

@@ -24,6 +24,10 @@ FlowEquation::FlowEquation(const SimplexMesh& mesh, const NodeGraph& graph, cons
     system_.rhs.resize(std::size_t(mesh.nOwned)*(dim + 1));
     for (auto* v : {&nodal_.rho, &nodal_.rhoOld, &nodal_.rhoOlder, &nodal_.mu}) v->resize(mesh.nNodes);
     nodal_.advection.resize(std::size_t(mesh.nNodes)*dim);
+    isOpen_.assign(mesh.nNodes, 0);
+    for (const BoundaryPatch& p : patches)
+        if (p.velocity == BoundaryPatch::Velocity::Open)
+            for (int i : p.nodes) isOpen_[i] = 1;
     buildConstraints();
 }
 
@@ -57,6 +61,7 @@ void FlowEquation::assemble(const FlowStepData& step)
     if (mesh_.dim == 2)
     {
         assembleElements<2>();
+        removeMassDefect<2>();
         assembleOpenBoundaries<2>();
         assembleWalls<2>();
         assembleGhosts<2>();
@@ -64,6 +69,7 @@ void FlowEquation::assemble(const FlowStepData& step)
     else
     {
         assembleElements<3>();
+        removeMassDefect<3>();
         assembleOpenBoundaries<3>();
         assembleWalls<3>();
         assembleGhosts<3>();
@@ -76,6 +82,9 @@ void FlowEquation::assembleElements()
     constexpr int N = D + 1, B = D + 1;
     ElementData<D> data;
     double block[B*B], source[B];
+    defect_.assign(mesh_.nOwned, 0.0);
+    mass_.assign(mesh_.nOwned, 0.0);
+    carriesMass_.assign(mesh_.nOwned, 0);
     for (int e = 0; e < mesh_.nInnerElements; ++e)
     {
         if (!loadElement<D>(e, data)) continue;
@@ -99,8 +108,25 @@ void FlowEquation::assembleElements()
             double* rhs = &system_.rhs[std::size_t(nodes[a])*B];
             for (int k = 0; k < B; ++k) rhs[k] += source[k];
             system_.dualVolume[nodes[a]] += data.first[a];
+            defect_[nodes[a]] += massDefect(data, a);
+            mass_[nodes[a]] += (data.isVarying ? data.nodalInertia[a] : data.inertia)*data.first[a];
+            carriesMass_[nodes[a]] |= data.isVarying;
             system_.pressureMass[nodes[a]] += data.first[a]/(data.mu + data.tauCont);
         }
+    }
+}
+
+/// Takes from the rows of the nodes around varying densities what inertia and convection leave of a uniform velocity: the rest of
+/// the mass balance (time levels, cut elements, corrections of the phase field). Open boundaries have their own part of it.
+template<int D>
+void FlowEquation::removeMassDefect()
+{
+    for (int i = 0; i < mesh_.nOwned; ++i)
+    {
+        if (!carriesMass_[i] || isOpen_[i]) continue;
+        double* m = &system_.matrix.velocity[std::size_t(graph_.diagonal[i])*D*D];
+        const double removed = std::min(defect_[i], 0.5*mass_[i]);
+        for (int d = 0; d < D; ++d) m[d*D + d] -= removed;
     }
 }
 

@@ -53,13 +53,14 @@ public:
 
 private:
     template<int D> void assembleElements();
+    template<int D> void removeMassDefect();
     template<int D> void assembleWalls();
     template<int D> void assembleGhosts();
     template<int D> void assembleOpenBoundaries();
     template<int D> void fineScaleT(const std::vector<double>&, std::vector<double>&) const;
     template<int D, class Element> bool loadElement(int e, Element& data) const
     {
-        return loadElementData<D>(e, mesh_, step_, controls_, nodal_, data);
+        return loadElementData<D>(e, mesh_, step_, fluid_, controls_, nodal_, data);
     }
     void setMaterials();
     void buildConstraints();
@@ -74,6 +75,8 @@ private:
     FlowStepData step_;
     FlowSystem system_;
     NodalData nodal_;
+    std::vector<double> defect_, mass_;         // owned nodes: see massDefect(); row sum of the inertia
+    std::vector<char> carriesMass_, isOpen_;    // nodes of varying elements; nodes on open patches
     std::vector<NodeConstraint> constraints_;   // all local nodes; directions from the slip patches
 };
 

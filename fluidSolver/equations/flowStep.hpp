@@ -6,6 +6,7 @@
 #include "core/controls.hpp"
 #include "core/flowState.hpp"
 #include "core/timeScheme.hpp"
+#include "equations/dualCellTransport.hpp"
 #include "geometry/cover.hpp"
 
 namespace flotsam
@@ -19,6 +20,7 @@ struct FlowStepData
     const Cover* cover = nullptr;               ///< null: no solids
     const std::vector<Solid>* solids = nullptr; ///< pose and motion at t^(n+1); free: predicted
     const std::vector<PatchValues>* patchValues = nullptr; ///< at t^(n+1)
+    const DualCellTransport* transport = nullptr;           ///< its last fluxes carry the momentum; null: a rho does
     const std::vector<double>* elementForce = nullptr;      ///< nElements*dim: gravity [N/m^3]
 };
 

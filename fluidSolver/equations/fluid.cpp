@@ -38,7 +38,7 @@ void Fluid::start(FlowState state, bool isSharp)
     if (!fluid_.isTwoPhase) state_.alpha.assign(mesh_.nNodes, 1.0);
     else if (isSharp) makeStartProfile(mesh_, graph_, halo_, transport_.width(), state_.alpha);
     if (isSharp || state_.alphaOld.size() != state_.alpha.size()) state_.alphaOld = state_.alphaOlder = state_.alpha;
-    const std::size_t fine = std::size_t(mesh_.nElements)*mesh_.dim;
+    const std::size_t fine = supg_ ? std::size_t(mesh_.nElements)*mesh_.dim : 0;
     if (state_.fineScale.size() != fine)
     {
         state_.fineScale.assign(fine, 0.0);
@@ -73,9 +73,10 @@ const std::vector<double>& Fluid::halfStep(const std::vector<double>& now, const
 TransportReport Fluid::advancePhase(double dt)
 {
     const std::vector<double>& u = halfStep(state_.u, state_.uOld, dt, workU_);
-    const std::vector<double>& fine = halfStep(state_.fineScale, state_.fineScaleOld, dt, workFine_);
     const std::vector<char>& isFixed = equation_.system().isPressureFixed;
-    if (!supg_) return transport_.advance(state_.alpha, dt, u, fine, cover_, patches_, values_, isFixed, ghostFlux_);
+    // without u': beside the surface it is an error of first order in time that damps waves (docs/numerics.md, section 4)
+    if (!supg_) return transport_.advance(state_.alpha, dt, u, {}, cover_, patches_, values_, isFixed, ghostFlux_);
+    const std::vector<double>& fine = halfStep(state_.fineScale, state_.fineScaleOld, dt, workFine_);
     supg_->setHistory(state_.alphaOlder, state_.dt);
     return supg_->advance(state_.alpha, dt, u, fine, cover_, patches_, values_, isFixed, ghostFlux_);
 }
@@ -244,8 +245,11 @@ void Fluid::endStep()
         state_.p[i] = x_[std::size_t(i)*B + dim];
     }
     moveInactiveNodes();
-    std::swap(state_.fineScale, state_.fineScaleOld);
-    equation_.fineScale(x_, state_.fineScale);
+    if (supg_)
+    {
+        std::swap(state_.fineScale, state_.fineScaleOld);
+        equation_.fineScale(x_, state_.fineScale);
+    }
     equation_.ghostFluxes(x_, ghostFlux_);
     state_.dtOld = state_.dt;
     state_.dt = time_.dt;

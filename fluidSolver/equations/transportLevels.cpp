@@ -143,6 +143,7 @@ void DualCellTransport::storeElement(const Arguments& in, std::size_t position, 
 {
     using Pairs = CornerPairs<dim>;
     stored_[position] = e;
+    storedAt_[e] = static_cast<int>(position);
     double* flux = &flux_[position*Pairs::count];
     volumeFlux_.ofElement<dim>(e, in.u, in.fineScale, in.cover, flux);
     const int* nodes = &mesh_.elements[std::size_t(e)*(dim + 1)];
@@ -167,7 +168,12 @@ void DualCellTransport::sortElements(const Arguments& in)
     {
         storedStart_[l + 1] += storedStart_[l];
     }
+    for (int e : stored_)
+    {
+        storedAt_[e] = -1;
+    }
     stored_.resize(storedStart_.back());
+    liquidFlux_.assign(stored_.size()*CornerPairs<dim>::count, 0.);
     flux_.resize(stored_.size()*CornerPairs<dim>::count);
     for (const std::vector<int>& nodes : meeting_)
     {

@@ -32,6 +32,12 @@ public:
     }
     double lastOrder(const std::string& name) const { return order(name, int(rows_.size()) - 1); }
 
+    /// Between the first and the last row.
+    double overallOrder(const std::string& name) const
+    {
+        return std::log(value(name, 0)/value(name, int(rows_.size()) - 1))/std::log(sizes_.front()/sizes_.back());
+    }
+
     double value(const std::string& name, int row) const
     {
         for (const auto& e : rows_[row]) if (e.first == name) return e.second;

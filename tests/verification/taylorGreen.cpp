@@ -100,7 +100,8 @@ TEST_CASE("Taylor-Green vortex")
     {
         const Decay decay = run(n);
         CHECK(decay.largestGrowth < 0);
-        table.add(M_PI/n, {{"u L2", decay.errors.velocity}, {"u H1", decay.errors.gradient}, {"p L2", decay.errors.pressure}, {"energy", decay.energy}});
+        table.add(M_PI/n, {{"u L2", decay.errors.velocity}, {"u H1", decay.errors.gradient}, {"p L2", decay.errors.pressure},
+            {"energy", decay.energy}});
     }
     table.print();
     CHECK(table.lastOrder("u L2") > 1.9);

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Half-submerged cylinder released above its equilibrium: heave decay. N: cells over two diameters near the cylinder."""
+import os
+
+import numpy as np
+
+from runner import foam
+from runner.cases import series
+
+RADIUS, GRAVITY, RISE = 0.0762, 9.81, 0.2 * 0.0762
+OURS = "flotsamFoam"
+
+title = """Cylinder of radius a = 0.0762 m, density 500, released 0.2 a above its equilibrium; tank 9.6 m x 2.4 m of water. N cells over two diameters in the square
+around the cylinder, stretched beyond. Ours: the cylinder is a free body in a plain mesh; peers: O-grid, morphing mesh (sixDoFRigidBodyMotion), `outer 1`
+one and `outer 3` three outer correctors, rebuilt solvers. Error: rms of z/z0 over t sqrt(g/a) in 0 .. 15 against the linear theory (infinite depth and width), which
+is what limits the comparison below about 0.015."""
+figures = {"heaveError": ("heave z/z0, rms error", ""), "trough": ("first trough (theory -0.641)", ""), "crest": ("first crest (theory 0.305)", ""),
+           "periodError": ("trough to trough, relative error", ""), "volumeError": ("volume drift", "")}
+mainError = "heaveError"
+targets = {"heaveError": (0.015, "rms at N = 32")}
+
+runs = [
+    *series(OURS, [16, 32, 48], quick=1),
+    *series("interFoam", [16, 32, 48], quick=1, variant="outer 1", options={"outer": 1}, rebuilt=True),
+    *series("interFoam", [16, 32], quick=0, variant="outer 3", options={"outer": 3}, rebuilt=True),
+    *series("interIsoFoam", [16, 32], quick=0, variant="outer 1", options={"outer": 1}, rebuilt=True),
+]
+
+
+def parameters(run):
+    outer = run.options.get("outer", 1)
+    return {"nOuter": outer, "nPressure": 2 if outer > 1 else 3}
+
+
+def prepare(run, do):
+    do(os.path.join(folder, "makeMesh"), "plain" if run.solver == OURS else "fitted", str(run.n))      # noqa: F821 (folder is set by the runner)
+    do("blockMesh")
+    do("setAlphaField")
+
+
+def _motion(run, case):
+    """Time [s] and height [m] of the axis over its equilibrium."""
+    if run.solver == OURS:
+        history = foam.history(root, case)      # noqa: F821
+        return np.r_[0, history.time], np.r_[RISE, history["cylinder"].position[:, 1]]
+    body = foam.table(case, "body/*/*.dat")
+    return body[:, 0], body[:, 2] + (0 if abs(body[0, 2]) > 0.5 * RISE else RISE)
+
+
+def _extremum(t, z, around, sign):
+    near = np.abs(t - around) < 0.7
+    fit = np.polyfit(t[near] - around, z[near], 4)
+    fine = np.linspace(-0.7, 0.7, 1401)
+    values = sign * np.polyval(fit, fine)
+    return around + fine[values.argmax()], sign * values.max()
+
+
+def errors(run, case):
+    t, z = _motion(run, case)
+    t, z = t * np.sqrt(GRAVITY / RADIUS), z / RISE
+    theory = foam.reference(root, "heaveCylinderLinear")        # noqa: F821
+    theory = theory[theory[:, 0] <= 15]
+    expected, found = ([_extremum(*s, around, sign) for around, sign in ((3.7, -1), (7.2, 1), (10.6, -1))] for s in (theory.T, (t, z)))
+    volume = foam.table(case, "volume/*/*.dat")[:, 1]
+    return {"heaveError": float(np.sqrt(np.mean((np.interp(theory[:, 0], t, z) - theory[:, 1])**2))), "trough": float(found[0][1]), "crest": float(found[1][1]),
+            "periodError": float((found[2][0] - found[0][0]) / (expected[2][0] - expected[0][0]) - 1), "volumeError": float(volume[-1] / volume[0] - 1)}

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Momentum and energy of fluid, free surface, body and contact in a closed box.
+#include "demCoupling/coupling/coupledStep.hpp"
+#include "equations/initialProfile.hpp"
+#include "support/budgets.hpp"
+#include "support/flowCases.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdio>
+
+using namespace flotsam;
+
+namespace
+{
+
+constexpr double gravity = 9.81;
+
+FlowState tankState(const SimplexMesh& mesh, const Halo& halo, const NumericsControls& controls, double level, double slope)
+{
+    FlowState state = restState(mesh);
+    const NodeGraph graph(mesh);
+    const std::vector<double> width = interfaceWidth(mesh, graph, halo, controls.interfaceWidth);
+    for (int i = 0; i < mesh.nNodes; ++i)
+    {
+        const double* x = &mesh.x[std::size_t(i)*mesh.dim];
+        state.alpha[i] = 1/(1 + std::exp((x[mesh.dim - 1] - level - slope*(x[0] - 0.5))/std::sqrt(1 + slope*slope)/width[i]));
+    }
+    state.alphaOld = state.alphaOlder = state.alpha;
+    return state;
+}
+
+FluidProperties waterAndAir(int dim)
+{
+    FluidProperties fluid;
+    fluid.muLiquid = 0.1; // resolved boundary layers are not what is asked for
+    fluid.gravity[dim - 1] = -gravity;
+    return fluid;
+}
+
+/// What a run leaves: impulses and energies.
+struct Account
+{
+    Vec3 momentumChange = Vec3::Zero(), impulse = Vec3::Zero();
+    double net = 0;             ///< int |sum of all forces| dt [N s]
+    double weight = 0;          ///< int |weight of fluid and bodies| dt [N s]
+    double released = 0;        ///< energy at the start less at the end [J]
+    double rise = 0;            ///< largest rise of the energy above an earlier value [J]
+    double defect() const { return (momentumChange - impulse).norm(); }
+    double largestMismatch = 0; ///< |contact on body + contact on walls| over the largest contact force
+    double largestContact = 0;  ///< [N]
+};
+
+struct Run
+{
+    SimplexMesh mesh;
+    Halo halo;
+    FluidProperties fluid;
+    NumericsControls controls;
+    PhaseTimers timers;
+
+    Run(int dim, int n)
+    :   mesh(makeBoxMesh(MPI_COMM_WORLD, dim, {n, n, n}, {0, 0, 0}, {1, 1, 1}, 0.1)), halo(mesh, MPI_COMM_WORLD), fluid(waterAndAir(dim))
+    {
+        usePetsc();
+        controls.tolerance = 1e-8;
+    }
+
+    Account account(CoupledStep& step, const std::vector<BodyDefinition>& bodies, double dt, int steps)
+    {
+        Account a;
+        auto total = [&](Vec3& momentum)
+        {
+            const FluidBudget b = fluidBudget(step.fluid(), fluid, controls, step.cover());
+            momentum = b.momentum;
+            double energy = b.kinetic + b.potential;
+            for (std::size_t k = 0; k < bodies.size(); ++k)
+            {
+                const BodyRecord r = step.records()[step.scene().nStructures() + k];
+                const Vec3& v = r.motion.velocity;
+                momentum += bodies[k].mass*v;
+                const Eigen::Matrix3d toBody = r.pose.orientation.toRotationMatrix().transpose();
+                const Vec3 w = toBody*r.motion.angularVelocity;
+                energy += 0.5*bodies[k].mass*v.squaredNorm() + 0.5*w.dot(bodies[k].principalInertia.cwiseProduct(w))
+                    + bodies[k].mass*gravity*r.pose.position[mesh.dim - 1];
+            }
+            return energy;
+        };
+        Vec3 start, now;
+        double energy = total(start);
+        a.released = energy;
+        double lowest = energy;
+        for (int k = 0; k < steps; ++k)
+        {
+            REQUIRE(step.step(dt).isAccepted);
+            const double next = total(now);
+            a.rise = std::max(a.rise, next - lowest);
+            lowest = std::min(lowest, next);
+            energy = next;
+            Vec3 weight = fluidBudget(step.fluid(), fluid, controls, step.cover()).weight;
+            Vec3 onBodies = Vec3::Zero(), onWalls = Vec3::Zero();
+            for (std::size_t b = 0; b < bodies.size(); ++b)
+            {
+                const BodyRecord r = step.records()[step.scene().nStructures() + b];
+                for (int d = 0; d < 3; ++d) weight[d] += bodies[b].mass*fluid.gravity[d];
+                onBodies += r.contactForce;
+            }
+            if (step.coupling()) for (const Load& load : step.coupling()->wallLoads()) onWalls += load.force;
+            const Vec3 force = weight + wallReaction(step.fluid()) + onBodies; // the contacts are with walls: outer forces
+            a.impulse += dt*force;
+            a.net += dt*force.norm();
+            a.weight += dt*weight.norm();
+            a.largestContact = std::max(a.largestContact, onBodies.norm());
+            a.largestMismatch = std::max(a.largestMismatch, (onBodies + onWalls).norm());
+        }
+        a.momentumChange = now - start;
+        a.released -= energy;
+        if (a.largestContact > 0) a.largestMismatch /= a.largestContact;
+        return a;
+    }
+};
+
+bool isRootRank()
+{
+    int rank = 0;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    return rank == 0;
+}
+
+void print(const char* name, const Account& a)
+{
+    if (!isRootRank()) return;
+    std::printf("| %s | %.3f | %.2f | %.0f | %.1f | %.3f | %.1e |\n", name, a.defect(), a.net, a.weight, a.released, a.rise, a.largestMismatch);
+}
+
+BodyDefinition makeBar(double height)
+{
+    BodyDefinition bar;
+    bar.name = "bar";
+    bar.shape = makeBox(Vec3::Zero(), Vec3(0.24, 0.12, 1));
+    bar.volume = 0.24*0.12;
+    bar.mass = 2000*bar.volume;
+    bar.principalInertia = bar.mass/12*Vec3(1 + 0.12*0.12, 1 + 0.24*0.24, 0.24*0.24 + 0.12*0.12);
+    bar.pose.position = Vec3(0.48, height, 0.5);
+    bar.isPlanar = true;
+    for (double x : {-0.1, -0.05, 0.0, 0.05, 0.1})
+        for (double y : {-0.04, 0.04}) bar.spheres.push_back({Vec3(x, y, 0), 0.02});
+    return bar;
+}
+
+/// A bar of twice the density of water falls on a floor at y = 0.08 m.
+Account fallingBar(bool isTwoPhase, double height, double dt, int steps)
+{
+    Run run(2, 32);
+    run.fluid.isTwoPhase = isTwoPhase;
+    run.controls.contactTolerance = 1e-3;
+    const BodyDefinition bar = makeBar(height);
+    DemSetup dem;
+    dem.bodies = {bar};
+    dem.laws = {ContactLaw()};
+    dem.box = {Vec3(0, 0, 0), Vec3(1, 1, 1)};
+    WallDefinition floor;
+    floor.name = "floor";
+    floor.point = Vec3(0, 0.08, 0);
+    floor.normal = Vec3(0, 1, 0);
+    dem.walls = {floor};
+    CoupledStep step(run.mesh, run.halo, run.fluid, run.controls, allPatches(run.mesh, BoundaryPatch::Velocity::Slip),
+        Scene({}, {bar}, Vec3(0, -gravity, 0)), &dem, run.timers);
+    step.start(tankState(run.mesh, run.halo, run.controls, 0.4, 0), false);
+    const Account a = run.account(step, {bar}, dt, steps);
+    CHECK(a.largestContact > 0);
+    CHECK(a.largestMismatch < 1e-12);
+    CHECK(a.released > 0);
+    return a;
+}
+
+} // namespace
+
+TEST_CASE("closed box: momentum change is the impulse of weight, walls and contact; energy does not grow")
+{
+    if (isRootRank()) std::printf("\n| | momentum change - impulse [N s] | int abs(net force) | int abs(weight) | energy released [J] | largest rise [J] "
+        "| action + reaction of contact |\n|---|---|---|---|---|---|---|\n");
+    {
+        Run run(2, 32);
+        CoupledStep step(run.mesh, run.halo, run.fluid, run.controls, allPatches(run.mesh, BoundaryPatch::Velocity::Slip),
+            Scene({}, {}, Vec3(0, -gravity, 0)), nullptr, run.timers);
+        step.start(tankState(run.mesh, run.halo, run.controls, 0.5, 0.2), false);
+        const Account a = run.account(step, {}, 4e-3, 200);
+        print("sloshing, surface tilted by 0.2", a);
+        const double waveEnergy = 1000*gravity*0.2*0.2/24;
+        CHECK(a.defect() < 1e-3*a.weight);
+        CHECK(a.defect() < 1e-2*a.net);
+        CHECK(a.rise < 0.02*waveEnergy); // the potential energy of the surface's own thickness is 0.1 of it
+        CHECK(a.released > 0);
+    }
+    {
+        const Account a = fallingBar(false, 0.3, 4e-3, 200);
+        print("bar sinks and lands, one fluid", a);
+        CHECK(a.defect() < 1e-2*a.net);
+        CHECK(a.rise < 1e-3*a.released);
+    }
+    {
+        const Account a = fallingBar(true, 0.52, 2e-3, 400);
+        print("bar falls into water, sinks and lands", a);
+        CHECK(a.defect() < 5e-3*a.weight);
+        CHECK(a.rise < 5e-3*a.released);
+    }
+}
+
+TEST_CASE("action equals reaction to round-off: walls and ghost faces exchange what the solids' rows hold")
+{
+    usePetsc();
+    for (int dim : {2, 3})
+    {
+        const int n = dim == 2 ? 16 : 8;
+        const SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, dim, {n, n, n}, {0, 0, 0}, {1, 1, 1}, 0.1);
+        const Halo halo(mesh, MPI_COMM_WORLD);
+        FluidProperties properties;
+        properties.isTwoPhase = false;
+        properties.rhoLiquid = 1000;
+        properties.muLiquid = 10;
+        NumericsControls controls;
+        Fluid fluid(mesh, halo, properties, controls, allPatches(mesh, BoundaryPatch::Velocity::Fixed));
+        fluid.start(restState(mesh), true);
+        std::vector<Solid> solids(2);
+        for (Solid& s : solids) s.kind = Solid::Kind::Free;
+        solids[0].shape = makeBox(Vec3::Zero(), Vec3(0.31, 0.24, 0.3));
+        solids[0].pose.position = Vec3(0.31, 0.42, 0.5);
+        solids[0].pose.orientation = Eigen::AngleAxisd(0.4, Vec3::UnitZ());
+        solids[1].shape = makeSphere(Vec3::Zero(), 0.17);
+        solids[1].pose.position = Vec3(0.71, 0.62, 0.5);
+        CoverBuilder builder(mesh, fluid.graph(), halo);
+        const Cover& cover = builder.build(solids);
+        fluid.setGeometry(&cover, &solids, true);
+        const double dt = 0.01;
+        fluid.beginStep(dt);
+        fluid.assemble();
+        const FlowSystem& system = fluid.equation().system();
+        // any u, p and body velocities: summed over all rows only the inertia of the fluid is left
+        const int B = dim + 1;
+        std::vector<double> x(std::size_t(mesh.nNodes)*B), q(2*system.nDof), rows(std::size_t(mesh.nOwned)*B), solidRows(q.size());
+        for (int i = 0; i < mesh.nNodes; ++i)
+            for (int c = 0; c < B; ++c) x[std::size_t(i)*B + c] = std::sin(1.0 + 7.77*(mesh.originalNode[i]*B + c))*(c == dim ? 1e4 : 1);
+        for (std::size_t k = 0; k < q.size(); ++k) q[k] = std::cos(3.3*k);
+        const FlowOperator op(fluid.graph(), halo, system, mesh.nOwned);
+        op.fluidRows(x.data(), q.data(), rows.data());
+        op.solidRows(x.data(), q.data(), solidRows.data());
+        double sum[3] = {0, 0, 0}, size = 0;
+        for (int i = 0; i < mesh.nOwned; ++i)
+            for (int d = 0; d < dim; ++d)
+            {
+                sum[d] += rows[std::size_t(i)*B + d];
+                size += std::abs(rows[std::size_t(i)*B + d]);
+            }
+        for (int e = 0; e < mesh.nElements; ++e)
+        {
+            if (!mesh.isOwnedElement[e] || cover.state[e] == ElementState::Solid) continue;
+            const bool isCut = cover.state[e] == ElementState::Cut;
+            for (int a = 0; a < B; ++a)
+                for (int d = 0; d < dim; ++d)
+                    sum[d] -= properties.rhoLiquid/dt*(isCut ? cover.cuts[cover.cutIndex[e]].first[a] : mesh.volume[e]/B)
+                        *x[std::size_t(mesh.elements[std::size_t(e)*B + a])*B + d];
+        }
+        halo.sum(sum, 3);
+        size = halo.sum(size);
+        for (int d = 0; d < dim; ++d)
+        {
+            const double total = sum[d] + solidRows[d] + solidRows[system.nDof + d];
+            CHECK(std::abs(total) < 1e-13*size);
+        }
+        CHECK(std::abs(solidRows[0]) > 1e-6*size);
+    }
+}
