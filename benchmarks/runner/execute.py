@@ -26,7 +26,7 @@ def execute(case, run, runsFolder, provenance, keep):
         row["cpu"] = _timed(case, run, folder)
         row.update(_sizes(folder))
         row.update(case.errors(run, folder))
-    except (RunFailed, RuntimeError, OSError, ValueError, IndexError, KeyError) as error:
+    except Exception as error:      # whatever it is, it is a row: a series goes on
         row["status"] = " ".join(str(error).split()) or type(error).__name__
         if os.path.isfile(os.path.join(folder, "log.solver")):
             row.update(_sizes(folder))

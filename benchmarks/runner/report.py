@@ -132,7 +132,7 @@ def _plot(case, rows, results):
         axis.set_xlabel("CPU seconds of the solver")
         axis.set_ylabel(what + (f" [{unit}]" if unit else ""))
         axis.grid(True, which="both", alpha=0.25)
-    axes[0][0].legend(fontsize=8)
+        axis.legend(fontsize=7)
     figure.suptitle(case.name, fontsize=11)
     figure.tight_layout()
     figure.savefig(os.path.join(results, case.name + ".png"))

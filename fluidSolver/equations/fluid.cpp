@@ -149,6 +149,7 @@ void Fluid::assemble()
     step.solids = solids_;
     step.patchValues = &values_;
     step.elementForce = &force_;
+    step.transport = fluid_.isTwoPhase && !supg_ ? &transport_ : nullptr;
     equation_.system().geometryChanged = geometryChanged_;
     equation_.assemble(step);
     geometryChanged_ = false;
