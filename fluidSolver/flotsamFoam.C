@@ -103,7 +103,11 @@ void run(Foam::Time& runTime, const Foam::fvMesh& mesh, bool isDryRun)
     const Vec3 gravity(g[0], g[1], g[2]);
     const BodiesInput bodies = readBodies(mesh, adapter.mesh, halo, gravity);
     printCaseCheck(controls, adapter, halo, boundary, countScene(bodies));
-    if (isDryRun) return;
+    if (isDryRun)
+    {
+        writeNumerics(Foam::Info, controls.numerics);
+        return;
+    }
 
     PhaseTimers timers;
     const DemSetup dem = makeDemSetup(bodies, controls.numerics.demTimeStep);

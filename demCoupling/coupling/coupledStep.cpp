@@ -152,7 +152,9 @@ std::vector<BodyRecord> CoupledStep::records() const
         if (body < 0)
         {
             const int wall = scene_.wallOf(int(s));
-            if (wall >= 0) r.contactForce = coupling_->wallLoads()[wall].force;
+            if (wall < 0) continue;
+            r.contactForce = coupling_->wallLoads()[wall].force;
+            r.contactMoment = coupling_->wallLoads()[wall].moment;
             continue;
         }
         r.pose = coupling_->states()[body].pose;

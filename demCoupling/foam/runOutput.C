@@ -57,7 +57,7 @@ bool RunOutput::readState(CoupledStep& step)
             + "; continue on the number of ranks that wrote it");
     RunState state = readCheckpoint(stateFile(), std::size_t(mesh_.nNodes));
     mass_ = {state.scalars["initialLiquid"], state.scalars["inflow"], state.scalars["outflow"], 0};
-    steps_ = long(state.scalars["steps"]);
+    steps_ = firstStep_ = long(state.scalars["steps"]);
     redistributed_ = state.scalars["redistributed"];
     timeStep_ = state.scalars["timeStep"];
     forces_.restore(state.arrays["forces"]);
@@ -145,7 +145,7 @@ void RunOutput::end(const CoupledStep&)
 {
     if (history_) history_->flush();
     RunSummary summary;
-    summary.steps = steps_;
+    summary.steps = steps_ - firstStep_;
     summary.repeatedSteps = rejected_;
     summary.nodes = mesh_.nGlobal;
     summary.ranks = halo_.size();

@@ -6,6 +6,8 @@
 #include "Time.H"
 #include "pointMesh.H"
 
+#include <algorithm>
+
 namespace flotsam
 {
 
@@ -28,7 +30,7 @@ std::unique_ptr<Field> newField(const Foam::fvMesh& db, const Mesh& mesh, const 
     return std::make_unique<Field>(io, mesh, Foam::dimensioned<Type>(name, dims, Foam::pTraits<Type>::zero));
 }
 
-/// Cell values -> nodes: mean over the simplices around a node, weighted with their volumes.
+/// Cell values -> nodes: mean over the cells around a node, weighted with their volumes.
 class CellsToNodes
 {
 public:
@@ -42,17 +44,25 @@ public:
         // deviations from a value that all ranks share: uniform fields come out exactly
         const double reference = halo_.max(nCells > 0 ? cellValue(0) : -1e300);
         std::vector<double> sum(2*static_cast<std::size_t>(mesh.nNodes), 0.0);
+        std::vector<int> nodes; // of a cell, each once: how its simplices share them must not count
         for (int c = 0; c < nCells; ++c)
+        {
+            nodes.clear();
+            double volume = 0;
             for (int k = adapter_.cellStart[c]; k < adapter_.cellStart[c + 1]; ++k)
             {
                 const int e = adapter_.cellElements[k];
-                for (int a = 0; a <= mesh.dim; ++a)
-                {
-                    double* s = &sum[2*static_cast<std::size_t>(mesh.elements[e*(mesh.dim + 1) + a])];
-                    s[0] += mesh.volume[e]*(cellValue(c) - reference);
-                    s[1] += mesh.volume[e];
-                }
+                volume += mesh.volume[e];
+                nodes.insert(nodes.end(), &mesh.elements[e*(mesh.dim + 1)], &mesh.elements[e*(mesh.dim + 1)] + mesh.dim + 1);
             }
+            std::sort(nodes.begin(), nodes.end());
+            nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+            for (int i : nodes)
+            {
+                sum[2*std::size_t(i)] += volume*(cellValue(c) - reference);
+                sum[2*std::size_t(i) + 1] += volume;
+            }
+        }
         halo_.sumToOwners(sum, 2);
         halo_.update(sum, 2);
         std::vector<double> nodal(mesh.nNodes);
