@@ -15,6 +15,7 @@ struct FlowState
     std::vector<double> u, uOld;        ///< nNodes*dim velocity at t^n, t^(n-1) [m/s]
     std::vector<double> p;              ///< nNodes pressure at t^n [Pa] (full pressure)
     std::vector<double> alpha, alphaOld, alphaOlder; ///< nNodes phase field, 1 liquid
+    double startLiquid = -1;            ///< volume of a sharp start field [m^dim]; negative: that of alpha at the nodes
     std::vector<double> fineScale, fineScaleOld; ///< nElements*dim: u' = -tau r_m of the last two solves [m/s]
 };
 

@@ -26,9 +26,9 @@ DualCellTransport::DualCellTransport(const SimplexMesh& mesh, const NodeGraph& g
       width_(interfaceWidth(mesh, graph, halo, controls.interfaceWidth)), dualVolume_(dualVolumes(mesh, nullptr)),
       wholeVolume_(dualVolume_), cells_(mesh), reconstruction_(mesh, graph, cells_, width_), volumeFlux_(mesh, graph),
       boundary_(mesh, graph, volumeFlux_), liquidVolume_(std::numeric_limits<double>::quiet_NaN()), phase_(mesh.nNodes),
-      inflow_(mesh.nNodes), outflow_(mesh.nNodes), rest_(mesh.nNodes), level_(mesh.nNodes), liquid_(mesh.nNodes),
+      inflow_(mesh.nNodes), outflow_(mesh.nNodes), rest_(mesh.nNodes), level_(mesh.nNodes), storedAt_(mesh.nElements, -1), liquid_(mesh.nNodes),
       volume_(mesh.nNodes), upwind_(mesh.nNodes), isMeeting_(mesh.nNodes, 0), firstLiquid_(mesh.nNodes),
-      firstVolume_(mesh.nNodes), storedAt_(mesh.nElements, -1), isActiveNode_(mesh.nNodes, 0), isListed_(mesh.nElements, 0), limiter_(2*std::size_t(mesh.nNodes)),
+      firstVolume_(mesh.nNodes), isActiveNode_(mesh.nNodes, 0), isListed_(mesh.nElements, 0), limiter_(2*std::size_t(mesh.nNodes)),
       isOpen_(mesh.nNodes, 0)
 {
 }

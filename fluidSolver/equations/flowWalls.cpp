@@ -145,7 +145,7 @@ void FlowEquation::assembleWalls()
                     coupling.row.resize(coupling.row.size() + B*nDof);
                 }
                 place[a] = position[i];
-                double q[6];
+                double q[6] = {};
                 solidVelocity(mesh_, solid, q);
                 for (int k = 0; k < D; ++k)
                 {

@@ -36,7 +36,7 @@ void Fluid::start(FlowState state, bool isSharp)
     const std::size_t n = std::size_t(mesh_.nNodes)*mesh_.dim;
     if (state_.uOld.size() != n) state_.uOld = state_.u;
     if (!fluid_.isTwoPhase) state_.alpha.assign(mesh_.nNodes, 1.0);
-    else if (isSharp) makeStartProfile(mesh_, graph_, halo_, transport_.width(), state_.alpha);
+    else if (isSharp) makeStartProfile(mesh_, graph_, halo_, transport_.width(), state_.alpha, state_.startLiquid);
     if (isSharp || state_.alphaOld.size() != state_.alpha.size()) state_.alphaOld = state_.alphaOlder = state_.alpha;
     const std::size_t fine = supg_ ? std::size_t(mesh_.nElements)*mesh_.dim : 0;
     if (state_.fineScale.size() != fine)

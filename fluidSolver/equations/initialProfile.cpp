@@ -94,7 +94,7 @@ std::vector<double> interfaceWidth(const SimplexMesh& mesh, const NodeGraph& gra
 }
 
 void makeStartProfile(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo,
-    const std::vector<double>& width, std::vector<double>& alpha)
+    const std::vector<double>& width, std::vector<double>& alpha, double liquid)
 {
     std::vector<double> level(alpha);
     for (double& l : level)
@@ -105,17 +105,20 @@ void makeStartProfile(const SimplexMesh& mesh, const NodeGraph& graph, const Hal
         return;
 
     const std::vector<double> volume = dualVolumes(mesh, nullptr);
-    double target = 0;
-    for (int i = 0; i < mesh.nOwned; ++i)
-        target += volume[i]*alpha[i];
-    target = halo.sum(target);
+    if (liquid < 0)
+    {
+        liquid = 0;
+        for (int i = 0; i < mesh.nOwned; ++i)
+            liquid += volume[i]*alpha[i];
+        liquid = halo.sum(liquid);
+    }
 
     constexpr double far = 1e3;     // widths: 0 or 1 exactly
     std::vector<double> argument(mesh.nNodes);
     for (int i = 0; i < mesh.nNodes; ++i)
         argument[i] = planes.has(i) ? profileArgument(mesh, planes, i, alpha[i], width[i]) : alpha[i] > 0.5 ? far : -far;
 
-    const double shift = volumeKeepingShift(mesh, halo, volume, argument, width, target);
+    const double shift = volumeKeepingShift(mesh, halo, volume, argument, width, liquid);
     for (int i = 0; i < mesh.nOwned; ++i)
         alpha[i] = logistic(argument[i] + shift/width[i]);
     halo.update(alpha, 1);

@@ -2,6 +2,7 @@
 #include "foam/fieldIO.H"
 #include "foam/boundaryReader.H"
 #include "foam/dictionaryChecks.H"
+#include "foam/surfaceFromCells.H"
 
 #include "Time.H"
 #include "pointMesh.H"
@@ -74,6 +75,18 @@ private:
     const MeshAdapter& adapter_;
     const Halo& halo_;
 };
+
+/// The surface between the cells' values, and the volume of their liquid.
+void readSurface(const MeshAdapter& adapter, const Halo& halo, const Foam::scalarField& alpha, FlowState& state)
+{
+    std::vector<double> fraction(alpha.begin(), alpha.end());
+    state.startLiquid = 0;
+    for (std::size_t c = 0; c < fraction.size(); ++c)
+        for (int k = adapter.cellStart[c]; k < adapter.cellStart[c + 1]; ++k)
+            state.startLiquid += fraction[c]*adapter.mesh.volume[adapter.cellElements[k]];
+    state.startLiquid = halo.sum(state.startLiquid);
+    reconstructSurface(adapter, halo, fraction, state.alpha);
+}
 
 /// Means of the nodal values over the fluid part of the simplices of a cell; over all of it where no fluid is (then false).
 bool cellMean(const MeshAdapter& adapter, const Cover* cover, const std::vector<double>& nodal, int cell, double* mean)
@@ -164,7 +177,12 @@ void FoamFields::readStart(FlowState& state) const
         const auto u = toNodes([&](int c) { return velocity_[c][mesh.axes[d]]; });
         for (int i = 0; i < mesh.nNodes; ++i) state.u[i*mesh.dim + d] = u[i];
     }
-    state.alpha = alpha_ ? toNodes([&](int c) { return (*alpha_)[c]; }) : std::vector<double>(mesh.nNodes, 1.0);
+    if (alpha_)
+    {
+        state.alpha = toNodes([&](int c) { return (*alpha_)[c]; });
+        readSurface(adapter_, halo_, *alpha_, state);
+    }
+    else state.alpha.assign(mesh.nNodes, 1.0);
     const Foam::volScalarField& pressure = pressureRgh_ ? *pressureRgh_ : *pressure_;
     state.p = toNodes([&](int c) { return pressure[c]*pressureScale_; });
     if (!pressureRgh_) return;

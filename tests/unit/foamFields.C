@@ -3,6 +3,8 @@
 #include "core/nodeGraph.hpp"
 #include "foam/boundaryConditions.H"
 #include "foam/fieldIO.H"
+#include "foam/surfaceFromCells.H"
+#include "geometry/cutSimplex.hpp"
 #include "support/foamCase.H"
 
 #include "surfaceFields.H"
@@ -153,4 +155,65 @@ TEST_CASE("work is skipped when nobody looks")
     Scene s;
     s.foam.time().setTime(0.01, 1);
     CHECK_FALSE(s.fields.isNeeded());
+}
+
+TEST_CASE("a plane comes back from the cells' fractions as that plane, also where it goes through nodes")
+{
+    Scene s;
+    const SimplexMesh& mesh = s.adapter.mesh;
+    const std::size_t n = mesh.dim + 1;
+    double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300};
+    for (int i = 0; i < mesh.nNodes; ++i)
+        for (int d = 0; d < 2; ++d)
+        {
+            low[d] = std::min(low[d], mesh.x[2*i + d]);
+            high[d] = std::max(high[d], mesh.x[2*i + d]);
+        }
+    double centre[2];
+    for (int d = 0; d < 2; ++d) centre[d] = 0.5*(-s.halo.max(-low[d]) + s.halo.max(high[d]));
+    for (const double slope : {0.0, 0.1, -0.37})
+        for (const double shift : {0.0, 0.013})
+        {
+            const auto depth = [&](int i) { return (centre[1] + shift + slope*(mesh.x[2*i] - centre[0]) - mesh.x[2*i + 1])/std::hypot(1, slope); };
+            std::vector<double> fraction(s.adapter.cellStart.size() - 1), alpha(mesh.nNodes);
+            double nPartly = 0;
+            for (std::size_t c = 0; c < fraction.size(); ++c)
+            {
+                double wet = 0, all = 0;
+                for (int k = s.adapter.cellStart[c]; k < s.adapter.cellStart[c + 1]; ++k)
+                {
+                    const std::size_t e = s.adapter.cellElements[k];
+                    double d[3];
+                    for (std::size_t a = 0; a < n; ++a) d[a] = std::abs(depth(mesh.elements[e*n + a])) < 1e-12 ? -1e-300 : depth(mesh.elements[e*n + a]);
+                    const int nWet = (d[0] > 0) + (d[1] > 0) + (d[2] > 0);
+                    all += mesh.volume[e];
+                    wet += mesh.volume[e]*(nWet == 0 ? 0 : nWet == 3 ? 1 : fluidFraction<2>(d).value);
+                }
+                fraction[c] = wet/all;
+                nPartly += fraction[c] > 0 && fraction[c] < 1;
+            }
+            for (int i = 0; i < mesh.nNodes; ++i) alpha[i] = depth(i) > 0 ? 1 : 0;
+            reconstructSurface(s.adapter, s.halo, fraction, alpha);
+            if (s.halo.sum(nPartly) == 0) continue; // the surface lies on faces
+            double length = 0; // of the level's unit
+            for (int i = 0; i < mesh.nNodes; ++i)
+                if (alpha[i] > 0 && alpha[i] < 1 && std::abs(depth(i)) > 1e-3) length = std::max(length, depth(i)/(alpha[i] - 0.5));
+            length = s.halo.max(length);
+            for (int e = 0; e < mesh.nElements; ++e)
+            {
+                // the P1 level of every element that the plane cuts
+                double lowest = 1e300, highest = -1e300;
+                for (std::size_t a = 0; a < n; ++a)
+                {
+                    lowest = std::min(lowest, depth(mesh.elements[e*n + a]));
+                    highest = std::max(highest, depth(mesh.elements[e*n + a]));
+                }
+                if (!mesh.isOwnedElement[e] || lowest*highest > 0) continue;
+                for (std::size_t a = 0; a < n; ++a)
+                {
+                    const int i = mesh.elements[e*n + a];
+                    CHECK(std::abs(length*(alpha[i] - 0.5) - depth(i)) < 1e-10);
+                }
+            }
+        }
 }
