@@ -5,6 +5,7 @@ title, figures   what is computed; {column: (label, unit)} of what errors() retu
 mainError        the column that stands for accuracy in plots and tables; moreErrors: further such columns, may be missing
 runs             list of Run: solvers, resolutions, variants
 parameters(run)  entries of system/parameters, included by the case's dictionaries
+files(run, folder)  {path: text} of further files of the case folder, may be missing
 prepare(run, do) mesh and start fields: do("blockMesh") runs a command in the case folder; time not counted
 errors(run, folder)  {column: value} from the finished run, the same formula for all solvers
 targets          {column: (value, text)}, may be missing
@@ -38,15 +39,16 @@ def series(solver, sizes, quick=1, **rest):
 ORDER = ["damBreak2D", "cylinder2D1", "sloshing2D", "hydrostatic", "advection", "heaveCylinder2D", "marin3D"]
 
 
-def names(root):
-    found = [n for n in os.listdir(os.path.join(root, "cases")) if os.path.isfile(os.path.join(root, "cases", n, "case.py"))]
-    return sorted(found, key=lambda n: (ORDER.index(n) if n in ORDER else len(ORDER), n))
+def names(root, part="cases", order=None):
+    order = ORDER if order is None else order
+    found = [n for n in os.listdir(os.path.join(root, part)) if os.path.isfile(os.path.join(root, part, n, "case.py"))]
+    return sorted(found, key=lambda n: (order.index(n) if n in order else len(order), n))
 
 
-def load(root, name):
-    path = os.path.join(root, "cases", name)
+def load(root, name, part="cases"):
+    path = os.path.join(root, part, name)
     if not os.path.isfile(os.path.join(path, "case.py")):
-        raise SystemExit(f"benchmarks/run: no case '{name}'; there are: {', '.join(names(root))}")
+        raise SystemExit(f"{part}: no case '{name}'; there are: {', '.join(names(root, part))}")
     spec = importlib.util.spec_from_file_location(name, os.path.join(path, "case.py"))
     case = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(case)

@@ -44,6 +44,10 @@ def _makeCase(case, run, folder):
                 shutil.copytree(os.path.join(base, part), os.path.join(folder, part), dirs_exist_ok=True)
     if os.path.isdir(os.path.join(folder, "0.orig")):
         shutil.copytree(os.path.join(folder, "0.orig"), os.path.join(folder, "0"))
+    for path, text in getattr(case, "files", lambda *_: {})(run, folder).items():
+        os.makedirs(os.path.dirname(os.path.join(folder, path)), exist_ok=True)
+        with open(os.path.join(folder, path), "w", encoding="utf-8") as out:
+            out.write(text)
     entries = {"solver": run.solver, **case.parameters(run)}
     with open(os.path.join(folder, "system", "parameters"), "w", encoding="utf-8") as out:
         out.writelines(f"{name} {value};\n" for name, value in entries.items())

@@ -25,11 +25,6 @@ struct NodalData
 /// order formula of a density that falls a thousandfold within two steps is a negative mass.
 constexpr double steepDensity = 1.5;
 
-/// Where the density varies a node's own density counts for its mass (momentum then moves with the mass of its dual cell), except for this share
-/// of the element's mean: gravity acts on the mean, and a gas node beside water must not fall a thousand times as fast.
-/// docs/numerics.md, section 2, has the table.
-constexpr double meanShare = 0.05;
-
 /// By element means, and by the nodes' values where these count.
 template<int D>
 inline bool isSteep(const ElementData<D>& data, const int* nodes, const NodalData& nodal, double rho1, double rho2)
@@ -43,7 +38,16 @@ inline bool isSteep(const ElementData<D>& data, const int* nodes, const NodalDat
     return false;
 }
 
-/// The transport's mass fluxes, moved from the middle of the step to its end with the mean density.
+/// Whether only structures at rest cut the element. Beside moving solids the element's mean density serves: nodes come out of them with
+/// densities of their own that nothing has carried there, and with the nodes' masses a bar that falls into water gains energy.
+inline bool isAtRest(const FlowStepData& step, const CutElement& cut)
+{
+    for (int f = cut.facetStart; f < cut.facetEnd; ++f)
+        if ((*step.solids)[step.cover->facets[f].solid].kind != Solid::Kind::Fixed) return false;
+    return true;
+}
+
+/// The transport's mass fluxes, moved from the middle of the step to its end, and from the resolved to the whole velocity, with the mean density.
 template<int D>
 inline void loadMassFluxes(const DualCellTransport::ElementFluxes& fluxes, const FluidProperties& fluid, const NumericsControls& controls,
     ElementData<D>& data)
@@ -98,7 +102,7 @@ inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& 
     const int* nodes = &mesh.elements[std::size_t(e)*N];
     data.gradN = &mesh.gradN[std::size_t(e)*N*D];
     data.rho = data.mu = 0;
-    const DualCellTransport::ElementFluxes fluxes = step.transport && !cut ? step.transport->fluxes(e) : DualCellTransport::ElementFluxes{};
+    const DualCellTransport::ElementFluxes fluxes = step.transport && (!cut || isAtRest(step, *cut)) ? step.transport->fluxes(e) : DualCellTransport::ElementFluxes{};
     data.isVarying = fluxes.total != nullptr;
     double rho1 = 0, rho2 = 0;
     for (int d = 0; d < D; ++d) data.advection[d] = 0;
@@ -113,6 +117,8 @@ inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& 
         data.mu += w*nodal.mu[i];
         for (int d = 0; d < D; ++d) data.advection[d] += w*nodal.advection[std::size_t(i)*D + d];
     }
+    if (step.fineScale)
+        for (int d = 0; d < D; ++d) data.advection[d] += (*step.fineScale)[std::size_t(e)*D + d];
     TimeScheme t = step.time;
     if (isSteep<D>(data, nodes, nodal, rho1, rho2)) t = TimeScheme::bdf(1, step.time.dt, 0);
     data.c0 = t.c0;
@@ -120,12 +126,12 @@ inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& 
     double one[N], two[N];  // densities of the nodes' mass at t^n, t^(n-1)
     for (int a = 0; a < N; ++a)
     {
-        const double own = data.isVarying ? 1 - meanShare : 0;
-        const double now = own*nodal.rho[nodes[a]] + (1 - own)*data.rho;
-        one[a] = own*nodal.rhoOld[nodes[a]] + (1 - own)*rho1;
-        two[a] = own*nodal.rhoOlder[nodes[a]] + (1 - own)*rho2;
+        const double now = data.isVarying ? nodal.rho[nodes[a]] : data.rho;
+        one[a] = data.isVarying ? nodal.rhoOld[nodes[a]] : rho1;
+        two[a] = data.isVarying ? nodal.rhoOlder[nodes[a]] : rho2;
         data.nodalInertia[a] = 0.5*(t.c0*now - t.c1*one[a] - t.c2*two[a]);
         data.densityRate[a] = t.c0*now + t.c1*one[a] + t.c2*two[a];
+        data.forceShare[a] = now/data.rho - 1;
     }
     if (data.isVarying) loadMassFluxes<D>(fluxes, fluid, controls, data);
     for (int a = 0; a < N; ++a)

@@ -5,6 +5,10 @@
 ///   (w, d(rho u)/dt - 1/2 drho/dt u) + 1/2 [(w, rho a.grad u) - (rho a.grad w, u)]              inertia, convection
 /// + (eps(w), 2 mu eps(u)) - (div w, p) + (q, div u) + (div w, tau_c div u)                      stress, continuity
 /// + sum_e (tau a.grad w + tau grad q/rho, rho (du/dt + a.grad u) + grad p - f) = (w, f)         SUPG, PSPG
+/// a = u + u', u' = -tau (residual)/rho of the last step: only the sum is free of divergence, and momentum is conserved by what is
+/// (Hughes & Wells 2005, doi 10.1016/j.cma.2004.06.034).
+/// Where the density varies mass is lumped with the nodes' own densities, and the force grad p - f of an element goes to its nodes in proportion
+/// to these: one acceleration for all of them, as the pressure's gradient is one.
 /// P1: gradients are constant; all integrals are exact from V, int N_a and int N_a N_b of the fluid part.
 #pragma once
 
@@ -31,6 +35,7 @@ struct ElementData
     bool isVarying;                     ///< density varies: the mass matrix is lumped and the transport's mass fluxes convect
     double nodalInertia[N];             ///< like inertia, of the nodes (varying)
     double massFlux[N*N];               ///< between the nodes' dual cells, a to b [kg/s] (varying)
+    double forceShare[N];               ///< density of the node over the mean, - 1: see above (varying)
     double densityRate[N];              ///< drho/dt at the nodes (their mean if not varying) [kg/(m^3 s)]
     double tau, tauCont;                ///< [s], [Pa s]
     double advection[D];                ///< a: mean over the fluid part [m/s]
@@ -100,6 +105,8 @@ inline void addPair(const ElementData<D>& e, int a, int b, double* m)
         m[k*B + D] = -ga[k]*e.first[b] + e.tau*e.ag[a]*e.volume*gb[k];  // pressure gradient, SUPG
         m[D*B + k] = e.first[a]*gb[k] + ga[k]*pspg;                     // continuity, PSPG
     }
+    if (e.isVarying)
+        for (int k = 0; k < D; ++k) m[k*B + D] += e.forceShare[a]*e.first[a]*gb[k];
     m[D*B + D] = e.tau/e.rho*e.volume*gg;                               // PSPG
 }
 
@@ -119,6 +126,7 @@ inline void addSource(const ElementData<D>& e, int a, double* rhs)
             mean += e.first[b]*e.history[b*D + k];
         }
         rhs[k] = mass + e.rho*e.tau*e.ag[a]*mean + (e.first[a] + e.tau*e.ag[a]*e.volume)*e.force[k];
+        if (e.isVarying) rhs[k] += e.forceShare[a]*e.first[a]*e.force[k];
         rhs[D] = (k == 0 ? 0 : rhs[D]) + e.tau*ga[k]*(mean + e.volume*e.force[k]/e.rho);
     }
 }

@@ -38,7 +38,7 @@ void Fluid::start(FlowState state, bool isSharp)
     if (!fluid_.isTwoPhase) state_.alpha.assign(mesh_.nNodes, 1.0);
     else if (isSharp) makeStartProfile(mesh_, graph_, halo_, transport_.width(), state_.alpha, state_.startLiquid);
     if (isSharp || state_.alphaOld.size() != state_.alpha.size()) state_.alphaOld = state_.alphaOlder = state_.alpha;
-    const std::size_t fine = supg_ ? std::size_t(mesh_.nElements)*mesh_.dim : 0;
+    const std::size_t fine = std::size_t(mesh_.nElements)*mesh_.dim;
     if (state_.fineScale.size() != fine)
     {
         state_.fineScale.assign(fine, 0.0);
@@ -149,6 +149,7 @@ void Fluid::assemble()
     step.solids = solids_;
     step.patchValues = &values_;
     step.elementForce = &force_;
+    step.fineScale = &state_.fineScale;
     step.transport = fluid_.isTwoPhase && !supg_ ? &transport_ : nullptr;
     equation_.system().geometryChanged = geometryChanged_;
     equation_.assemble(step);
@@ -246,11 +247,8 @@ void Fluid::endStep()
         state_.p[i] = x_[std::size_t(i)*B + dim];
     }
     moveInactiveNodes();
-    if (supg_)
-    {
-        std::swap(state_.fineScale, state_.fineScaleOld);
-        equation_.fineScale(x_, state_.fineScale);
-    }
+    std::swap(state_.fineScale, state_.fineScaleOld);
+    equation_.fineScale(x_, state_.fineScale);
     equation_.ghostFluxes(x_, ghostFlux_);
     state_.dtOld = state_.dt;
     state_.dt = time_.dt;

@@ -3,6 +3,8 @@
 
 #include "equations/materials.hpp"
 
+#include <algorithm>
+
 namespace flotsam
 {
 
@@ -28,12 +30,23 @@ FluidBudget fluidBudget(const Fluid& fluid, const FluidProperties& properties, c
             for (int b = 0; b < n; ++b) second[a*n + b] = cut ? cut->second[a*n + b] : volume*(a == b ? 2 : 1)/(n*(n + 1));
         }
         sums[3] += rho*volume;
+        double lightest = 1e300, heaviest = 0, nodal[4];
+        for (int a = 0; a < n; ++a)
+        {
+            nodal[a] = density(properties, controls, state.alpha[nodes[a]]);
+            lightest = std::min(lightest, nodal[a]);
+            heaviest = std::max(heaviest, nodal[a]);
+        }
+        // the solver's masses: lumped and the nodes' own where the density varies, but for cut elements
+        const bool isLumped = !cut && heaviest > lightest*(1 + 1e-10);
         for (int d = 0; d < dim; ++d)
             for (int a = 0; a < n; ++a)
             {
                 const double u = state.u[std::size_t(nodes[a])*dim + d];
-                sums[d] += rho*first[a]*u;
-                for (int b = 0; b < n; ++b) sums[4] += 0.5*rho*second[a*n + b]*u*state.u[std::size_t(nodes[b])*dim + d];
+                sums[d] += (isLumped ? nodal[a] : rho)*first[a]*u;
+                if (isLumped) sums[4] += 0.5*nodal[a]*first[a]*u*u;
+                else
+                    for (int b = 0; b < n; ++b) sums[4] += 0.5*rho*second[a*n + b]*u*state.u[std::size_t(nodes[b])*dim + d];
                 // int rho x with nodal rho: an interface inside an element keeps its height
                 for (int b = 0; b < n; ++b)
                     sums[5] -= second[a*n + b]*density(properties, controls, state.alpha[nodes[a]])*properties.gravity[mesh.axes[d]]

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Pairs of scenes: one in which a rule acts, one in which it cannot."""
+import os
+from dataclasses import dataclass
+from typing import Callable
+
+import numpy as np
+
+import scenes
+import startState
+from scenes import Scene
+
+ONE_FLUID = """FoamFile { version 2.0; format ascii; class dictionary; object transportProperties; }
+transportModel Newtonian;
+nu 1e-06;
+rho 1000;
+"""
+
+
+@dataclass
+class Pair:
+    row: str
+    rule: str
+    first: str              # the scene with the rule
+    second: str
+    how: str                # switch or equivalent scene
+    withRule: Callable
+    withoutRule: Callable
+
+
+def _dam(root, runs, name, dim, n, change=None):
+    """Dam break scene in a folder of its own; change(folder, fields) before the fields are written."""
+    folder = os.path.join(runs, "skipping_" + name)
+    startState.makeCase(folder, dim, n, "flotsamFoam")
+    fields, fastest = startState.state(root, runs, dim, n)
+    if change:
+        change(folder, fields)
+    startState.writeFields(folder, fields)
+    return Scene(name, folder, scenes.COURANT / n / fastest, 5, 25)
+
+
+def _write(folder, name, text):
+    with open(os.path.join(folder, name), "w", encoding="utf-8") as out:
+        out.write(text)
+
+
+def _replace(folder, name, old, new):
+    path = os.path.join(folder, name)
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    if old not in text:
+        raise RuntimeError(f"{path}: '{old}' not found")
+    with open(path, "w", encoding="utf-8") as out:
+        out.write(text.replace(old, new))
+
+
+def _full(folder, fields):
+    fields["alpha.water"] = np.ones_like(fields["alpha.water"])
+    fields["p_rgh"] = np.zeros_like(fields["p_rgh"])
+
+
+def _fullOneFluid(folder, fields):
+    _full(folder, fields)
+    _write(folder, "constant/transportProperties", ONE_FLUID)
+
+
+def _twice(folder, fields):
+    """The 2D scene as one layer of cells in 3D."""
+    _replace(folder, "system/parameters", "front empty;", "front wall;")
+    for name, kind in (("U", "slip"), ("alpha.water", "zeroGradient"), ("p_rgh", "fixedFluxPressure; value uniform 0")):
+        _replace(folder, "0.orig/" + name, '    ".*"', f"    frontAndBack {{ type {kind}; }}\n    \".*\"")
+    startState.steps.do(folder, "blockMesh")
+
+
+def _supg(folder, _fields):
+    _replace(folder, "system/fvSolution", "PIMPLE", "flotsam { dualCellTransport off; }\nPIMPLE")
+
+
+BLOCK = """FoamFile { version 2.0; format ascii; class dictionary; object bodies; }
+structures { block { shape { type box; size (%s); } position (0.7505 0.5003 0.5002); } }
+"""
+
+
+def _bigBlock(folder, fields):
+    _fullOneFluid(folder, fields)
+    _write(folder, "constant/bodies", BLOCK % "0.4 0.9 0.9")
+
+
+def _smallBlock(folder, fields):
+    _fullOneFluid(folder, fields)
+    _write(folder, "constant/bodies", BLOCK % "0.1 0.1 0.1")
+
+
+def _slitDam(change, suffix):
+    def make(root, runs):
+        scene = scenes.slitDam(root, runs, bars="no", suffix=suffix)
+        change(scene.folder)
+        return scene
+    return make
+
+
+def _addHeldBody(folder):
+    with open(os.path.join(folder, "constant", "bodies"), "a", encoding="utf-8") as out:
+        out.write("\nbodies { held { shape { type sphere; radius 0.015; } density 590; material wood; position (0.28 0 0.24); releaseTime 1000; } }\n")
+
+
+def _movePipes(folder):
+    _replace(folder, "constant/bodies", "        wall            $:parameters.pipeWall;",
+             "        wall            $:parameters.pipeWall;\n        contact off; motion { type linear; velocity (0 0 0); }")
+
+
+def _nothing(_folder):
+    pass
+
+
+PAIRS = [
+    Pair("oneFluid", "one fluid: no phase field", "3D box, one fluid", "the same box filled by the liquid of two", "equivalent scene",
+         lambda root, runs: _dam(root, runs, "oneFluid", 3, 32, _fullOneFluid), lambda root, runs: _dam(root, runs, "twoFluids", 3, 32, _full)),
+    Pair("noBodies", "no bodies: no DEM engine", "slitDam without bars", "with one sphere, held in the air", "equivalent scene", _slitDam(_nothing, "_none"), _slitDam(_addHeldBody, "_held")),
+    Pair("fixedOnly", "fixed structures: cut once", "slitDam without bars, pipes fixed", "pipes moving at 0 m/s", "equivalent scene", _slitDam(_nothing, "_fixed"), _slitDam(_movePipes, "_moving")),
+    Pair("planar", "2D: triangles, three unknowns a node", "dam break 2D", "the same as one layer of cells in 3D", "equivalent scene",
+         lambda root, runs: _dam(root, runs, "planar", 2, 100), lambda root, runs: _dam(root, runs, "layer", 2, 100, _twice)),
+    Pair("insideSolids", "inside solids: not assembled, no unknowns", "box with a block that fills a third of it", "block a thousandth of the box", "equivalent scene",
+         lambda root, runs: _dam(root, runs, "bigBlock", 3, 32, _bigBlock), lambda root, runs: _dam(root, runs, "smallBlock", 3, 32, _smallBlock)),
+    Pair("farFromSurface", "phase field only near the surface", "dam break 3D, dual-cell transport", "SUPG form, solved everywhere", "switch `dualCellTransport`",
+         lambda root, runs: _dam(root, runs, "near", 3, 32), lambda root, runs: _dam(root, runs, "everywhere", 3, 32, _supg)),
+]
+
+NOTES = """Of the rules not in this table: re-cutting only near moving bodies and large DEM steps away from contact are measured by
+`speedKernels` (`cutTwentyBars`, `demFreeFlight`); the preconditioner's reuse has no switch.
+"""

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Bouncing sphere against the exact solution of the contact law."""
+import numpy as np
+
+from runner import foam
+from runner.cases import Run
+from support import gas
+from support.compare import relative, small
+
+RADIUS, DENSITY, DROP, STIFFNESS, GRAVITY, END = 0.01, 590.0, 0.05, 1000.0, 9.81, 0.55
+SMALLEST = 2e-4        # height [m] of a bounce that lasts a dozen time steps
+MASS = 4 / 3 * np.pi * RADIUS**3 * DENSITY
+
+title = """Sphere of 0.01 m radius (590 kg/m3) dropped from 0.05 m on a wall, spring 1000 N/m, in a gas of 1e-4 kg/m3. Exact: parabolas, and a spring and dashpot that never attract, the
+dashpot from the restitution by Schwager & Poeschel 2007 (docs/contact.md). The time step of the fluid is 1 ms at most; a contact lasts 4 to 5 ms."""
+
+runs = [Run("flotsamFoam", 1, f"restitution {e}", {"e": e}, quick=e == 0.8) for e in (0.8, 0.5, 0.2)]
+
+
+def resolution(_run):
+    return "8 x 8 x 10 cells"
+
+
+def files(run, _folder):
+    text = f"""contact {{ default {{ stiffness {STIFFNESS:g}; restitution {run.options['e']}; frictionAngle 30; }} }}
+bodies {{ sphere {{ shape {{ type sphere; radius {RADIUS:g}; }} density {DENSITY:g}; position (0.001 0.002 {RADIUS + DROP:g}); }} }}"""
+    return gas.files(((-0.04, 0.04), (-0.04, 0.04), (0, 0.1)), (8, 8, 10), (0, 0, -GRAVITY), text, END, 1e-3)
+
+
+def parameters(_run):
+    return {}
+
+
+def prepare(_run, do):
+    do("blockMesh")
+
+
+def _restitution(beta):
+    w = np.sqrt(abs(1 - beta**2))
+    if beta < 1:
+        return np.exp(-beta / w * (np.pi - np.arctan2(2 * beta * w, w**2 - beta**2)))
+    return np.exp(-2 * beta / w * np.log(beta + w))
+
+
+def _damping(e):
+    low, high = 0.0, 20.0
+    for _ in range(80):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if _restitution(middle) > e else (low, middle)
+    return 2 * low * np.sqrt(STIFFNESS * MASS)
+
+
+def _contact(v, damping):
+    """Speed, duration and gap at the end of a contact that begins with the speed v < 0: fourth order Runge-Kutta to zero force."""
+    step, t, state = 2e-6, 0.0, np.array([0.0, v])
+
+    def rate(s):
+        return np.array([s[1], -GRAVITY + (-STIFFNESS * s[0] - damping * s[1]) / MASS])
+    while True:
+        a = rate(state)
+        b = rate(state + 0.5 * step * a)
+        c = rate(state + 0.5 * step * b)
+        state = state + step / 6 * (a + 2 * b + 2 * c + rate(state + step * c))
+        t += step
+        if -STIFFNESS * state[0] - damping * state[1] <= 0:
+            return state[1], t, state[0]
+        if t > 0.05:        # too slow to leave: it stays
+            return 0.0, t, 0.0
+
+
+def _exact(e):
+    """(time, height) of the highest points of the gap after each contact, as long as they are above SMALLEST."""
+    damping, tops = _damping(e), []
+    t, y, v = 0.0, DROP, 0.0
+    while True:
+        landing = (v + np.sqrt(v**2 + 2 * GRAVITY * y)) / GRAVITY
+        t, v = t + landing, v - GRAVITY * landing
+        v, duration, y = _contact(v, damping)
+        t += duration
+        top = y + v**2 / (2 * GRAVITY)
+        if top < SMALLEST or len(tops) == 3:
+            return tops
+        tops.append((t + v / GRAVITY, top))
+
+
+def _tops(t, y):
+    """The same of the computed path, by parabolas through the records of each flight's middle."""
+    at = np.flatnonzero((y[1:-1] > y[:-2]) & (y[1:-1] >= y[2:]) & (y[1:-1] > 2e-5)) + 1
+    found = []
+    for i in at:
+        c = np.polyfit(t[i - 1:i + 2] - t[i], y[i - 1:i + 2], 2)
+        top = -c[1] / (2 * c[0])
+        found.append((t[i] + top, np.polyval(c, top)))
+    return found
+
+
+def errors(run, case):
+    history = foam.history(root, case)      # noqa: F821 (root is set by the runner)
+    t, y = history.time, history["sphere"].position[:, 2] - RADIUS
+    found, before = [], (DROP, DROP)
+    for i, (mine, exact) in enumerate(zip(_tops(t, y), _exact(run.options["e"]))):
+        ratios = [np.sqrt(new[1] / old) for new, old in zip((mine, exact), before)]
+        before = mine[1], exact[1]
+        found += [relative(f"root of the height of bounce {i + 1} over the one before", *ratios, 0.01, source="exact"),
+                  relative(f"time of the top of bounce {i + 1}", mine[0], exact[0], 0.005, "s", "exact")]
+    falling = t < np.sqrt(2 * DROP / GRAVITY) - 2e-3
+    found.append(small("free fall, largest deviation", np.abs(y - DROP + 0.5 * GRAVITY * t**2)[falling].max(), 1e-6, "m", "exact"))
+    return {"comparisons": found}

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Heave decay of a floating sphere, H0 = 0.1 D (Kramer et al. 2021). N: elements a diameter."""
+import numpy as np
+
+from runner import foam
+from runner.cases import Run
+from support.compare import relative, small
+from support.files import around, blockMesh, bodies, control, field, gravity, level, merged, twoFluids
+
+SOURCE = "Kramer et al. 2021, experiment"
+DIAMETER, DROP, PERIOD, END = 0.3, 0.03, 0.7561, 2.3
+
+title = """Sphere of 0.3 m, 7.056 kg, half immersed at rest, released 0.03 m above (Kramer et al. 2021, 95 % band of the experiment). Basin 4 x 4 m (13 x 8.44 m in the experiment: waves that
+the walls send back arrive after 6 s), 0.9 m deep, slip walls; N elements a diameter within 0.2 m of the sphere, wider elsewhere; three periods. The body is of uniform density."""
+
+runs = [Run("flotsamFoam", n, quick=n == 8, timeLimit=1800) for n in (8, 12, 16)]
+
+
+def resolution(run):
+    return f"{run.n} a diameter"
+
+
+def files(run, _folder):
+    h = DIAMETER / run.n
+    side = around(-2, -0.2, 0.2, 2, h, 1.2)
+    height = around(-0.9, -0.22, 0.22, 0.4, h, 1.25)
+    density = 7.056 / (np.pi / 6 * DIAMETER**3)
+    walls = "type fixedFluxPressure; value uniform 0;"
+    return merged(
+        blockMesh(side, side, height, {"walls": ("wall", "x- x+ y- y+ z-"), "atmosphere": ("patch", "z+")}),
+        field("U", {"walls": "slip", "atmosphere": "type pressureInletOutletVelocity; value uniform (0 0 0);"}),
+        field("p_rgh", {"walls": walls, "atmosphere": "type totalPressure; p0 uniform 0;"}),
+        field("alpha.water", {"walls": "zeroGradient", "atmosphere": "type inletOutlet; inletValue uniform 0; value uniform 0;"}),
+        level("(0 0 1)"),
+        twoFluids(1e-6, 1.48e-5, 998.2, 1.2), gravity(z=-9.82),
+        bodies(f"bodies {{ sphere {{ shape {{ type sphere; radius 0.15; }} density {density:.10g}; position (0 0 {_rest(density) + DROP:.8g}); }} }}"),
+        control(END, 1e-3, maxDeltaT=0.01))
+
+
+def _rest(density):
+    """Height of the centre at rest: the cap below the water weighs as much as the sphere."""
+    r, share = DIAMETER / 2, density / 998.2
+    depth = np.roots([-np.pi / 3, np.pi * r, 0, -share * 4 / 3 * np.pi * r**3])
+    draft = next(d.real for d in depth if abs(d.imag) < 1e-9 and 0 < d.real < 2 * r)
+    return r - draft
+
+
+def parameters(_run):
+    return {}
+
+
+def prepare(_run, do):
+    do("blockMesh")
+    do("setAlphaField")
+
+
+def _extremum(t, z, around_, sign):
+    near = np.abs(t - around_) < 0.15
+    c = np.polyfit(t[near] - around_, z[near], 4)
+    fine = np.linspace(-0.15, 0.15, 3001)
+    values = sign * np.polyval(c, fine)
+    return around_ + fine[values.argmax()], sign * values.max()
+
+
+def errors(_run, case):
+    history = foam.history(root, case)      # noqa: F821 (root is set by the runner)
+    density = history["sphere"].mass / history["sphere"].volume
+    t, z = history.time / PERIOD, (history["sphere"].position[:, 2] - _rest(density)) / DROP
+    table = foam.reference(root, "sphereHeaveKramer")      # noqa: F821
+    table = table[table[:, 0] < t[-1]]
+    own = np.interp(table[:, 0], t, z)
+    beyond = np.maximum(0, np.maximum(own - table[:, 3], table[:, 2] - own))
+    found = [small("height over time, rms over the drop", float(np.sqrt(np.mean((own - table[:, 1])**2))), source=SOURCE),
+             small("largest distance from the experiment's band", beyond.max(), 0.02, "H0", SOURCE)]
+    for name, about, sign in (("first trough", 0.51, -1), ("first crest", 1.01, 1), ("second trough", 1.52, -1)):
+        mine, published = _extremum(t, z, about, sign), _extremum(*table[:, :2].T, about, sign)
+        found.append(relative(name, mine[1], published[1], 0.02, "H0", SOURCE, scale=1))
+        if name == "second trough":
+            found.append(relative("time of the second trough", mine[0], published[0], 0.01, "Te0", SOURCE))
+    return {"comparisons": found}
