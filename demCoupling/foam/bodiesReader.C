@@ -192,7 +192,8 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
     const auto patches = wallPatches(dict, mesh);
     const int wallMaterial = patches.empty() ? 0 : readMaterial(dict, "wallMaterial", input.materials);
     for (const std::string& name : patches)
-        input.walls.push_back(makeMeshWall(mesh, mesh.boundaryMesh()[mesh.boundaryMesh().findPatchID(name)], halo, wallMaterial));
+        for (WallDefinition& wall : makeMeshWalls(mesh, mesh.boundaryMesh()[mesh.boundaryMesh().findPatchID(name)], halo, wallMaterial))
+            input.walls.push_back(std::move(wall));
     if (patches.empty() && !dict.found("wallPatches"))
         Foam::Info << "constant/bodies: the mesh has no patch of type wall, so bodies can leave it everywhere. If that is not meant: wallPatches (names);" << Foam::nl;
     Obstacles obstacles = makeObstacles(input, frame); // the patches; structures by their shapes

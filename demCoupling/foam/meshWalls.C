@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <map>
+#include <string>
 
 namespace flotsam
 {
@@ -57,25 +58,39 @@ TriSurface stitched(const std::vector<double>& corners)
     return surface;
 }
 
-/// Area-weighted normal and centre; true when all points lie in that plane.
-bool fitPlane(const TriSurface& surface, Vec3& point, Vec3& normal, double tolerance)
+/// Faces in one plane.
+struct PlanarPart
 {
-    Vec3 sum = Vec3::Zero(), centre = Vec3::Zero();
-    double area = 0;
+    Vec3 point, normal;
+    TriSurface surface;
+};
+
+/// Faces sorted by the planes they lie in; no more than `largest` planes, then empty: the surface is curved.
+std::vector<PlanarPart> planarParts(const TriSurface& surface, double tolerance, std::size_t largest)
+{
+    std::vector<PlanarPart> parts;
     for (const auto& t : surface.triangles)
     {
-        const Vec3 &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
-        const Vec3 n = 0.5*(b - a).cross(c - a);
-        sum += n;
-        centre += n.norm()*(a + b + c)/3;
-        area += n.norm();
+        const Vec3 corners[3] = {surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]};
+        const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+        PlanarPart* found = nullptr;
+        for (PlanarPart& part : parts)
+        {
+            bool isIn = normal.dot(part.normal) > 0.999999;
+            for (const Vec3& c : corners) isIn = isIn && std::abs(part.normal.dot(c - part.point)) <= tolerance;
+            if (isIn) { found = &part; break; }
+        }
+        if (!found)
+        {
+            if (parts.size() == largest) return {};
+            parts.push_back({corners[0], normal, {}});
+            found = &parts.back();
+        }
+        for (const Vec3& c : corners) found->surface.points.push_back(c);
+        const int n = static_cast<int>(found->surface.points.size());
+        found->surface.triangles.push_back({n - 3, n - 2, n - 1});
     }
-    if (area <= 0 || sum.norm() < 0.999999*area) return false;
-    point = centre/area;
-    normal = sum.normalized();
-    for (const Vec3& x : surface.points)
-        if (std::abs(normal.dot(x - point)) > tolerance) return false;
-    return true;
+    return parts;
 }
 
 bool isMeshInFront(const Foam::polyMesh& mesh, const Halo& halo, const Vec3& point, const Vec3& normal, double tolerance)
@@ -94,19 +109,40 @@ std::array<Vec3, 2> meshBounds(const Foam::polyMesh& mesh)
     return {toVec3(box.min()), toVec3(box.max())};
 }
 
-WallDefinition makeMeshWall(const Foam::polyMesh& mesh, const Foam::polyPatch& patch, const Halo& halo, int material)
+std::vector<WallDefinition> makeMeshWalls(const Foam::polyMesh& mesh, const Foam::polyPatch& patch, const Halo& halo, int material)
 {
-    WallDefinition wall;
-    wall.name = patch.name();
-    wall.material = material;
-    wall.surface = stitched(gatherAll(localTriangles(mesh, patch), halo));
+    constexpr std::size_t mostPlanes = 12; // of a patch; a curved one has more
+    WallDefinition rest;
+    rest.name = patch.name();
+    rest.material = material;
+    rest.kind = WallDefinition::Kind::Surface;
+    rest.surface = stitched(gatherAll(localTriangles(mesh, patch), halo));
     const auto bounds = meshBounds(mesh);
     const double tolerance = 1e-7*(bounds[1] - bounds[0]).norm();
-    const bool isPlane = fitPlane(wall.surface, wall.point, wall.normal, tolerance)
-        && isMeshInFront(mesh, halo, wall.point, wall.normal, tolerance);
-    wall.kind = isPlane ? WallDefinition::Kind::Plane : WallDefinition::Kind::Surface;
-    if (isPlane) wall.surface = TriSurface();
-    return wall;
+    const std::vector<PlanarPart> parts = planarParts(rest.surface, tolerance, mostPlanes);
+    if (parts.empty()) return {rest};
+    std::vector<WallDefinition> walls;
+    std::vector<double> corners; // of what is left
+    for (const PlanarPart& part : parts)
+    {
+        if (!isMeshInFront(mesh, halo, part.point, part.normal, tolerance))
+        {
+            for (const auto& t : part.surface.triangles)
+                for (int k : t) corners.insert(corners.end(), part.surface.points[k].data(), part.surface.points[k].data() + 3);
+            continue;
+        }
+        WallDefinition wall;
+        wall.name = patch.name();
+        if (parts.size() > 1) wall.name += "." + std::to_string(walls.size() + 1);
+        wall.material = material;
+        wall.kind = WallDefinition::Kind::Plane;
+        wall.point = part.point;
+        wall.normal = part.normal;
+        walls.push_back(std::move(wall));
+    }
+    rest.surface = stitched(corners);
+    if (!corners.empty()) walls.push_back(std::move(rest));
+    return walls;
 }
 
 } // namespace flotsam

@@ -40,7 +40,7 @@ struct NumericsControls
     bool balancedGravity = true;    ///< false: rho_e g
     int gravityLayers = 6;          ///< rings over which interface planes are handed on
     // linear solver
-    double tolerance = 3e-6;        ///< relative residual of the scaled system
+    double tolerance = 1e-5;        ///< relative residual of the scaled system
     int maxIterations = 200;
     int restart = 30;
     // coupling

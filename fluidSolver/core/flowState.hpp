@@ -13,10 +13,10 @@ struct FlowState
     long step = 0;                      ///< steps done
     double dt = 0, dtOld = 0;           ///< last two steps [s]; 0 before they exist
     std::vector<double> u, uOld;        ///< nNodes*dim velocity at t^n, t^(n-1) [m/s]
-    std::vector<double> p;              ///< nNodes pressure at t^n [Pa] (full pressure)
+    std::vector<double> p, pOld;        ///< nNodes pressure at t^n, t^(n-1) [Pa] (full pressure)
     std::vector<double> alpha, alphaOld, alphaOlder; ///< nNodes phase field, 1 liquid
     double startLiquid = -1;            ///< volume of a sharp start field [m^dim]; negative: that of alpha at the nodes
-    std::vector<double> fineScale, fineScaleOld; ///< nElements*dim: u' = -tau r_m of the last two solves [m/s]
+    std::vector<double> fineScale, fineScaleOld; ///< nElements*dim: u' = -tau r_m of the last two solves [m/s]; the older only for the SUPG phase field
 };
 
 } // namespace flotsam

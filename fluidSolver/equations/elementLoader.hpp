@@ -117,8 +117,14 @@ inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& 
         data.mu += w*nodal.mu[i];
         for (int d = 0; d < D; ++d) data.advection[d] += w*nodal.advection[std::size_t(i)*D + d];
     }
+    const double h = mesh.h[e], nu = data.mu/data.rho;
     if (step.fineScale)
-        for (int d = 0; d < D; ++d) data.advection[d] += (*step.fineScale)[std::size_t(e)*D + d];
+    {
+        double square = 0;
+        for (int d = 0; d < D; ++d) square += data.advection[d]*data.advection[d];
+        const double share = convectingShare(step.time.dt, std::sqrt(square), h, nu);
+        for (int d = 0; d < D; ++d) data.advection[d] += share*(*step.fineScale)[std::size_t(e)*D + d];
+    }
     TimeScheme t = step.time;
     if (isSteep<D>(data, nodes, nodal, rho1, rho2)) t = TimeScheme::bdf(1, step.time.dt, 0);
     data.c0 = t.c0;
@@ -145,7 +151,6 @@ inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& 
     double speed = 0;
     for (int d = 0; d < D; ++d) speed += data.advection[d]*data.advection[d];
     speed = std::sqrt(speed);
-    const double h = mesh.h[e], nu = data.mu/data.rho;
     data.tau = tauMomentum(step.time.dt, speed, h, nu);
     data.tauCont = controls.tauContFactor*tauContinuity(controls.tauContWithTimeStep, data.rho, speed, h, nu, data.tau);
     for (int d = 0; d < D; ++d)

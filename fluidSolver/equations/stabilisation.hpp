@@ -15,6 +15,15 @@ inline double tauMomentum(double dt, double speed, double h, double nu)
     return 1/std::sqrt(transient*transient + convective*convective + viscous*viscous);
 }
 
+/// Share of u' that convects (0..1): its inertial part. The residual of P1 lacks the viscous stress, u' is wrong where that matters, and there it
+/// oscillates from step to step (lid-driven cavity at Re 100); convection is of no importance in such elements.
+inline double convectingShare(double dt, double speed, double h, double nu)
+{
+    const double transient = 2/dt, convective = 2*speed/h, viscous = 12*nu/(h*h);
+    const double inertial = transient*transient + convective*convective;
+    return inertial/(inertial + viscous*viscous);
+}
+
 /// tau_cont [Pa s] of the grad-div term: rho h^2/(12 tau) (with the time step) or rho (nu + |a| h/2) (without).
 inline double tauContinuity(bool withTimeStep, double rho, double speed, double h, double nu, double tau)
 {

@@ -16,6 +16,7 @@ namespace
 constexpr double sharp = 1e-6;          // fractions nearer to 0 or 1 are full or empty
 constexpr int maxSweeps = 200;          // a plane is found to round-off in 20 to 100
 constexpr double smallestChange = 1e-13;  // of the level, per sweep, over the common length
+constexpr int patience = 10;            // sweeps in which the change must halve: a surface that is no plane settles at a finite one
 constexpr double flattest = 0.05;       // change of alpha over a cell below which there is no surface (a mixture)
 
 struct PartlyFilled
@@ -44,7 +45,14 @@ public:
         dropMixtures(alpha);
         std::vector<double> level(alpha.size());
         for (std::size_t i = 0; i < level.size(); ++i) level[i] = alpha[i] - 0.5;
-        for (int sweep = 0; sweep < maxSweeps && average(level) > smallestChange; ++sweep) {}
+        double change = 1e300, before = 1e300;
+        for (int sweep = 1; sweep <= maxSweeps && change > smallestChange; ++sweep)
+        {
+            change = average(level);
+            if (sweep % patience != 0) continue;
+            if (change > 0.5*before) break;
+            before = change;
+        }
         extend(level);
         for (std::size_t i = 0; i < level.size(); ++i) alpha[i] = 0.5 + level[i];
     }
@@ -113,10 +121,11 @@ private:
         return sum;
     }
 
-    double fractionAbove(const PartlyFilled& p, const std::array<double, 3>& normal, double offset) const
+    /// Share of the cell above the plane, and minus its derivative to the offset [1/m].
+    FluidFraction above(const PartlyFilled& p, const std::array<double, 3>& normal, double offset) const
     {
         const int n = mesh_.dim + 1;
-        double wet = 0;
+        FluidFraction sum{0, 0};
         for (int k = adapter_.cellStart[p.cell]; k < adapter_.cellStart[p.cell + 1]; ++k)
         {
             const std::size_t e = adapter_.cellElements[k];
@@ -128,10 +137,14 @@ private:
                 if (distance[a] == 0) distance[a] = 1e-300; // the kernel wants signs
                 nWet += distance[a] > 0;
             }
-            const double share = nWet == 0 ? 0 : nWet == n ? 1 : mesh_.dim == 2 ? fluidFraction<2>(distance).value : fluidFraction<3>(distance).value;
-            wet += share*mesh_.volume[e];
+            const double share = mesh_.volume[e]/p.volume;
+            if (nWet == n) sum.value += share;
+            if (nWet == 0 || nWet == n) continue;
+            const FluidFraction part = mesh_.dim == 2 ? fluidFraction<2>(distance) : fluidFraction<3>(distance);
+            sum.value += share*part.value;
+            sum.slope += share*part.slope;
         }
-        return wet/p.volume;
+        return sum;
     }
 
     /// The plane normal.x = offset that cuts off the cell's fraction on its positive side.
@@ -143,12 +156,18 @@ private:
             low = std::min(low, along(normal, i));
             high = std::max(high, along(normal, i));
         }
-        for (int k = 0; k < 60 && high - low > 1e-15*p.size; ++k) // bisection: the fraction falls from 1 to 0
+        double at = p.fraction*low + (1 - p.fraction)*high;
+        for (int k = 0; k < 60 && high - low > 1e-15*p.size; ++k) // Newton within a bracket: the fraction falls from 1 to 0
         {
-            const double middle = 0.5*(low + high);
-            (fractionAbove(p, normal, middle) > p.fraction ? low : high) = middle;
+            const FluidFraction now = above(p, normal, at);
+            if (std::abs(now.value - p.fraction) < 1e-15) break;
+            (now.value > p.fraction ? low : high) = at;
+            const double next = now.slope > 0 ? at + (now.value - p.fraction)/now.slope : 0.5*(low + high);
+            const double last = at;
+            at = next > low && next < high ? next : 0.5*(low + high);
+            if (std::abs(at - last) < 1e-16*p.size) break;
         }
-        return 0.5*(low + high);
+        return at;
     }
 
     /// Nodal means of a value of each cell, nComponents wide; nodes without partly filled cells get weight 0. Result: per node the means, the weight.

@@ -23,7 +23,7 @@ constexpr std::int64_t formatVersion = 1;
 using Field = std::vector<double> FlowState::*;
 struct NamedField { const char* name; Field field; };
 constexpr NamedField flowFields[] = {
-    {"u", &FlowState::u}, {"uOld", &FlowState::uOld}, {"p", &FlowState::p},
+    {"u", &FlowState::u}, {"uOld", &FlowState::uOld}, {"p", &FlowState::p}, {"pOld", &FlowState::pOld},
     {"alpha", &FlowState::alpha}, {"alphaOld", &FlowState::alphaOld}, {"alphaOlder", &FlowState::alphaOlder},
     {"fineScale", &FlowState::fineScale}, {"fineScaleOld", &FlowState::fineScaleOld}};
 

@@ -117,20 +117,20 @@ TEST_CASE("arrays of structures and bodies, and their walls")
     CHECK(makeSolids(input).size() == 10);
     CHECK(makeSolids(input)[4].kind == Solid::Kind::Free);
 
-    // patches floor (a plane), frontAndBack (two planes in one patch: a surface), then the pipes
-    REQUIRE(input.walls.size() == 6);
+    // patches floor (a plane), frontAndBack (two planes in one patch), then the pipes
+    REQUIRE(input.walls.size() == 7);
     CHECK(input.walls[0].name == "floor");
     CHECK(input.walls[0].kind == WallDefinition::Kind::Plane);
     CHECK((input.walls[0].normal - Vec3::UnitY()).norm() < 1e-12);
-    CHECK(input.walls[1].kind == WallDefinition::Kind::Surface);
-    for (const auto& t : input.walls[1].surface.triangles)
+    for (int k : {1, 2})
     {
-        const auto& x = input.walls[1].surface.points;
-        const Vec3 n = (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
-        CHECK(n.z()*(x[t[0]].z() < 0.2 ? 1 : -1) > 0); // towards the fluid
+        CHECK(input.walls[k].kind == WallDefinition::Kind::Plane);
+        CHECK(std::abs(std::abs(input.walls[k].normal.z()) - 1) < 1e-12);
+        CHECK(input.walls[k].normal.z()*(input.walls[k].point.z() < 0.2 ? 1 : -1) > 0); // towards the fluid
     }
-    CHECK(input.structures[2].wall == 4);
-    CHECK(input.walls[4].material == 1);
+    CHECK(input.structures[2].wall == 5);
+    CHECK(input.walls[5].kind == WallDefinition::Kind::Surface);
+    CHECK(input.walls[5].material == 1);
     REQUIRE(input.laws.size() == 4);
     CHECK(input.laws[1].restitution == 0.5);
     CHECK(input.laws[2].frictionAngleDeg == 20);

@@ -19,7 +19,7 @@ PIPES = {"left": 0.02, "right": -0.02}
 
 
 def runs(sizes):
-    return [Run("flotsamFoam", n, kind, quick=n == sizes[0], timeLimit=1200) for n in sizes for kind in ("held", "fixed")]
+    return [Run("flotsamFoam", n, kind, quick=n == sizes[0], timeLimit=2400) for n in sizes for kind in ("held", "fixed")]
 
 
 def _pipes(facets):

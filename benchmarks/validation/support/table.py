@@ -63,10 +63,23 @@ def _value(text, line):
     return f"{float(text):.5g} {line['unit']}".strip() if text else ""
 
 
+def _summary(cases, lines):
+    """Figures with a target: how many reached it on the finest run of each variant, and those that missed."""
+    table = ["| case | finest runs: targets reached | missed |", "|---|---|---|"]
+    for case in cases:
+        mine = [line for line in lines if line["case"] == case.name and line["status"] == "ok"]
+        finest = {v: max(int(line["N"]) for line in mine if line["variant"] == v) for v in {line["variant"] for line in mine}}
+        mine = [line for line in mine if int(line["N"]) == finest[line["variant"]] and line["verdict"]]
+        missed = [f"{line['variant']} {line['quantity']} {_size(line['error'] or line['value'], line, '+')}".strip() for line in mine if line["verdict"] == "missed"]
+        if mine:
+            table.append(f"| {case.name} | {len(mine) - len(missed)} of {len(mine)} | {'; '.join(missed)} |")
+    return "\n".join(table)
+
+
 def write(path, cases, lines, command):
     """validation.md: a section per case, a line per figure."""
     parts = ["# Validation", f"Computed figures beside published ones; default numerics in every case. Regenerate: `{command}`.\n"
-             "Error: relative where a % stands. CPU: user seconds of the solver on one core; `load` of the machine and the commit are in validation.csv."]
+             "Error: relative where a % stands. CPU: user seconds of the solver on one core; `load` of the machine and the commit are in validation.csv.", _summary(cases, lines)]
     for case in cases:
         mine = [line for line in lines if line["case"] == case.name]
         if not mine:

@@ -12,7 +12,7 @@ SCALE = 2 / (0.2**2 * 0.1 * 0.41)
 title = """Steady flow past a cylinder that spans a square duct, Re = 20 (Schaefer & Turek 1996, case 3D-1Z), cut out of a mesh with N elements a diameter
 in 0.4 < x < 0.6, 0.1 < y < 0.3 (m) and 1.6 N over the duct's depth, wider elsewhere. Run to t = 4 s at maxCo 4 (a steady flow needs no more)."""
 
-runs = [Run("flotsamFoam", n, quick=n == 8, timeLimit=1500) for n in (8, 12, 16, 20)]
+runs = [Run("flotsamFoam", n, quick=n == 8, timeLimit=3600) for n in (8, 12, 16, 20)]
 
 
 def resolution(run):

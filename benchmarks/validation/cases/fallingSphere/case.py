@@ -16,7 +16,7 @@ title = """Nylon sphere of 15 mm (1120 kg/m3) released from rest in oil, box 0.1
 Re = 1.5, 4.1, 11.6, 31.9). N elements a diameter along its way, wider towards the side walls. Speed and gap over time (E1, E4: digitised) as long as the
 gap exceeds a diameter, the film below it being thinner than an element later; other runs stop when the largest speed is past."""
 
-runs = [Run("flotsamFoam", n, name, {"isWhole": n < 12 and name in ("E1", "E4")}, quick=(n == 6 and name == "E4"), timeLimit=1800) for n in (6, 8, 12) for name in OILS]
+runs = [Run("flotsamFoam", n, name, {"isWhole": n < 12 and name in ("E1", "E4")}, quick=(n == 6 and name == "E4"), timeLimit=3600) for n in (6, 8, 12) for name in OILS]
 
 
 def resolution(run):

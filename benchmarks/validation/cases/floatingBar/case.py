@@ -17,7 +17,7 @@ title = """Bars with a square section of 0.02 m and a plank of 0.04 m x 0.02 m, 
 viscosity, at rest after 5 s. Theory: the attitude of least potential energy that the turn at the start leads to, at which the displaced liquid weighs as much as the bar: a square floats on
 a flat side for s < 0.211 and s > 0.789, corner down for 0.281 < s < 0.719 and askew between (E. N. Gilbert, Am. Math. Monthly 98 (1991) 201). N elements over 0.02 m."""
 
-runs = [Run("flotsamFoam", n, name, quick=(n == 6 and name == "square 0.59"), timeLimit=900) for n in (6, 10) for name in SECTIONS]
+runs = [Run("flotsamFoam", n, name, quick=(n == 6 and name == "square 0.59"), timeLimit=2400) for n in (6, 10) for name in SECTIONS]
 
 
 def resolution(run):

@@ -14,7 +14,7 @@ title = """Cylinder moved as x = -A sin(2 pi t/T) through fluid at rest, KC = 5,
 a diameter over the cylinder's way, 4 periods, the last one compared. Coefficients are of F/(rho U^2 D/2); published ones come from the digitised curve by the same formulae.
 Noise: rms of the force less its Fourier series of 15 terms, over the largest force; default Courant numbers, so that the surface crosses many elements per period."""
 
-runs = [Run("flotsamFoam", n, quick=n == 10, timeLimit=1500) for n in (10, 20, 40)]
+runs = [Run("flotsamFoam", n, quick=n == 10, timeLimit=3600) for n in (10, 20, 40)]
 
 
 def resolution(run):

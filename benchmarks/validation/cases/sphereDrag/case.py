@@ -15,7 +15,7 @@ symmetric to the axis; at Re 300 the real wake sheds vortices, which the planes 
 widening by 20 % an element; slip sides at 40 diameters (Re 1), 20, 15, 15, 12 (Re 300), inlet as far, outlet 1.5 times. maxCo 4. Published: correlation of Clift, Grace & Weber
 1978 (Re 300: mean of Johnson & Patel 1999, 0.656, within 0.5 % of it); that of Schiller & Naumann lies 1 to 5 % beside it."""
 
-runs = [*(Run("flotsamFoam", 8, name, quick=name == "Re 100") for name in STREAMS), *(Run("flotsamFoam", 16, name, timeLimit=1500) for name in STREAMS)]
+runs = [*(Run("flotsamFoam", 8, name, quick=name == "Re 100", timeLimit=2400) for name in STREAMS), *(Run("flotsamFoam", 16, name, timeLimit=3600) for name in STREAMS)]
 
 
 def resolution(run):

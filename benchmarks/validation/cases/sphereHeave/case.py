@@ -13,7 +13,7 @@ DIAMETER, DROP, PERIOD, END = 0.3, 0.03, 0.7561, 2.3
 title = """Sphere of 0.3 m, 7.056 kg, half immersed at rest, released 0.03 m above (Kramer et al. 2021, 95 % band of the experiment). Basin 4 x 4 m (13 x 8.44 m in the experiment: waves that
 the walls send back arrive after 6 s), 0.9 m deep, slip walls; N elements a diameter within 0.2 m of the sphere, wider elsewhere; three periods. The body is of uniform density."""
 
-runs = [Run("flotsamFoam", n, quick=n == 8, timeLimit=1800) for n in (8, 12, 16)]
+runs = [Run("flotsamFoam", n, quick=n == 8, timeLimit=3600) for n in (8, 12, 16)]
 
 
 def resolution(run):

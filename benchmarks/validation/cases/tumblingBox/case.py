@@ -10,7 +10,7 @@ from support.compare import small
 title = """Box 0.20 x 0.06 x 0.02 m (590 kg/m3) spinning at (3, 0, 4) rad/s without weight in a gas of 1e-4 kg/m3, 10 s (4.6 periods of its tumbling). Exact: Jacobi elliptic functions.
 Two caps of the time step show its order."""
 
-runs = [Run("flotsamFoam", 1, f"dt {dt:g} s", {"dt": dt}, quick=dt == 0.01, timeLimit=1200) for dt in (0.01, 0.005, 0.0025)]
+runs = [Run("flotsamFoam", 1, f"dt {dt:g} s", {"dt": dt}, quick=dt == 0.01, timeLimit=2400) for dt in (0.01, 0.005, 0.0025)]
 
 
 def resolution(_run):
