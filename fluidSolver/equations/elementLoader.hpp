@@ -65,7 +65,10 @@ inline void loadMassFluxes(const DualCellTransport::ElementFluxes& fluxes, const
     {
         const int a = Pairs::first[p], b = Pairs::second[p];
         const double atEnd = data.volume/N*(ag[b] - ag[a]);
-        const double alpha = fluxes.total[p] == 0 ? 0 : std::clamp(fluxes.liquid[p]/fluxes.total[p], 0.0, 1.0);
+        // fluxes may be as small as 1e-310: the quotient only where it is below 1
+        const double liquid = std::abs(fluxes.liquid[p]), total = std::abs(fluxes.total[p]);
+        const bool isForward = (fluxes.liquid[p] > 0) == (fluxes.total[p] > 0);
+        const double alpha = !isForward || liquid == 0 ? 0 : liquid < total ? liquid/total : 1;
         const double flux = density(fluid, controls, alpha)*fluxes.total[p] + data.rho*(atEnd - fluxes.total[p]);
         data.massFlux[a*N + b] = flux;
         data.massFlux[b*N + a] = -flux;
