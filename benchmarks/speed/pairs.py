@@ -10,6 +10,7 @@ import scenes
 import startState
 from scenes import Scene
 
+SIDE = 24               # cells a direction of the 3D scenes
 ONE_FLUID = """FoamFile { version 2.0; format ascii; class dictionary; object transportProperties; }
 transportModel Newtonian;
 nu 1e-06;
@@ -91,39 +92,31 @@ def _smallBlock(folder, fields):
     _write(folder, "constant/bodies", BLOCK % "0.1 0.1 0.1")
 
 
-def _slitDam(change, suffix):
-    def make(root, runs):
-        scene = scenes.slitDam(root, runs, bars="no", suffix=suffix)
-        change(scene.folder)
-        return scene
-    return make
+POST = """FoamFile { version 2.0; format ascii; class dictionary; object bodies; }
+structures { post { shape { type cylinder; end1 (0 -0.1 0); end2 (0 1.1 0); radius 0.1; } position (0.7013 0 0.4007); %s } }
+"""
+HELD = "bodies { held { shape { type sphere; radius 0.08; } density 590; position (0.2 0.85 0.8); releaseTime 1000; } }\n"
 
 
-def _addHeldBody(folder):
-    with open(os.path.join(folder, "constant", "bodies"), "a", encoding="utf-8") as out:
-        out.write("\nbodies { held { shape { type sphere; radius 0.015; } density 590; material wood; position (0.28 0 0.24); releaseTime 1000; } }\n")
-
-
-def _movePipes(folder):
-    _replace(folder, "constant/bodies", "        wall            $:parameters.pipeWall;",
-             "        wall            $:parameters.pipeWall;\n        contact off; motion { type linear; velocity (0 0 0); }")
-
-
-def _nothing(_folder):
-    pass
+def _post(motion="", bodies=""):
+    """A post in the way of the water."""
+    return lambda folder, _fields: _write(folder, "constant/bodies", POST % motion + bodies)
 
 
 PAIRS = [
     Pair("oneFluid", "one fluid: no phase field", "3D box, one fluid", "the same box filled by the liquid of two", "equivalent scene",
-         lambda root, runs: _dam(root, runs, "oneFluid", 3, 32, _fullOneFluid), lambda root, runs: _dam(root, runs, "twoFluids", 3, 32, _full)),
-    Pair("noBodies", "no bodies: no DEM engine", "slitDam without bars", "with one sphere, held in the air", "equivalent scene", _slitDam(_nothing, "_none"), _slitDam(_addHeldBody, "_held")),
-    Pair("fixedOnly", "fixed structures: cut once", "slitDam without bars, pipes fixed", "pipes moving at 0 m/s", "equivalent scene", _slitDam(_nothing, "_fixed"), _slitDam(_movePipes, "_moving")),
+         lambda root, runs: _dam(root, runs, "oneFluid", 3, SIDE, _fullOneFluid), lambda root, runs: _dam(root, runs, "twoFluids", 3, SIDE, _full)),
+    Pair("noBodies", "no bodies: no DEM engine", "dam break 3D with a post", "and with a sphere, held in the air", "equivalent scene",
+         lambda root, runs: _dam(root, runs, "post", 3, SIDE, _post()), lambda root, runs: _dam(root, runs, "postAndSphere", 3, SIDE, _post("", HELD))),
+    Pair("fixedOnly", "fixed structures: cut once", "dam break 3D, post fixed", "post moving at 0 m/s", "equivalent scene",
+         lambda root, runs: _dam(root, runs, "fixedPost", 3, SIDE, _post()),
+         lambda root, runs: _dam(root, runs, "movingPost", 3, SIDE, _post("contact off; motion { type linear; velocity (0 0 0); }"))),
     Pair("planar", "2D: triangles, three unknowns a node", "dam break 2D", "the same as one layer of cells in 3D", "equivalent scene",
          lambda root, runs: _dam(root, runs, "planar", 2, 100), lambda root, runs: _dam(root, runs, "layer", 2, 100, _twice)),
     Pair("insideSolids", "inside solids: not assembled, no unknowns", "box with a block that fills a third of it", "block a thousandth of the box", "equivalent scene",
-         lambda root, runs: _dam(root, runs, "bigBlock", 3, 32, _bigBlock), lambda root, runs: _dam(root, runs, "smallBlock", 3, 32, _smallBlock)),
+         lambda root, runs: _dam(root, runs, "bigBlock", 3, SIDE, _bigBlock), lambda root, runs: _dam(root, runs, "smallBlock", 3, SIDE, _smallBlock)),
     Pair("farFromSurface", "phase field only near the surface", "dam break 3D, dual-cell transport", "SUPG form, solved everywhere", "switch `dualCellTransport`",
-         lambda root, runs: _dam(root, runs, "near", 3, 32), lambda root, runs: _dam(root, runs, "everywhere", 3, 32, _supg)),
+         lambda root, runs: _dam(root, runs, "near", 3, SIDE), lambda root, runs: _dam(root, runs, "everywhere", 3, SIDE, _supg)),
 ]
 
 NOTES = """Of the rules not in this table: re-cutting only near moving bodies and large DEM steps away from contact are measured by

@@ -14,13 +14,18 @@ def _pairs(rows):
     return [(r, peers.get((r["scene"], r["size"]))) for r in rows if r["solver"] == OURS and number(r, "total")]
 
 
+def _shown(row, column, pattern):
+    value = number(row, column) if row else None
+    return "" if value is None else format(value, pattern)
+
+
 def _comparison(rows):
     lines = []
     for ours, peer in _pairs(rows):
         u, p = number(ours, "total"), number(peer, "total") if peer else None
         lines.append([ours["scene"], ours["cells"], ours["nodes"], f"{u:.2f}", f"{p:.2f}" if p else "", ours["ratio"] and f"{number(ours, 'ratio'):.2f}",
-                      f"{number(ours, 'iterations'):.1f}", f"{number(peer, 'iterations'):.1f}" if p else "", f"{number(ours, 'peakMB'):.0f}",
-                      f"{number(peer, 'peakMB'):.0f}" if p else "", f"{number(ours, 'startup'):.1f}", ours["load"], ours["commit"]])
+                      _shown(ours, "iterations", ".1f"), _shown(peer, "iterations", ".1f"),
+                      _shown(ours, "peakMB", ".0f"), _shown(peer, "peakMB", ".0f"), _shown(ours, "startup", ".1f"), _shown(ours, "load", ".1f"), ours["commit"]])
     return markdown(["scene", "cells", "nodes", "flotsamFoam us/node/step", "interFoam us/cell/step", "ratio", "iterations", "interFoam's", "peak MB", "interFoam's",
                      "start and 5 steps, CPU s", "load", "commit"], lines)
 

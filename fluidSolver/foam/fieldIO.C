@@ -118,28 +118,35 @@ bool cellMean(const MeshAdapter& adapter, const Cover* cover, const std::vector<
     return false;
 }
 
+/// Coupled (processor) patches take their cells' values from each other.
+template<class Field>
+void exchangeCoupled(Field& field)
+{
+    if (!Foam::Pstream::parRun()) return;
+    auto& boundary = field.boundaryFieldRef();
+    const Foam::label firstRequest = Foam::Pstream::nRequests();
+    forAll(boundary, i)
+        if (boundary[i].coupled()) boundary[i].initEvaluate(Foam::Pstream::commsTypes::nonBlocking);
+    Foam::Pstream::waitRequests(firstRequest);
+    forAll(boundary, i)
+        if (boundary[i].coupled()) boundary[i].evaluate(Foam::Pstream::commsTypes::nonBlocking);
+}
+
 /// Patch values are set without evaluating conditions; only coupled (processor) patches exchange their cells' values.
 template<class Field, class FaceValue>
 void assignPatches(Field& field, FaceValue faceValue)
 {
     using Type = typename Field::value_type;
     auto& boundary = field.boundaryFieldRef();
-    const Foam::label firstRequest = Foam::Pstream::nRequests();
     forAll(boundary, i)
     {
-        if (boundary[i].coupled())
-        {
-            boundary[i].initEvaluate(Foam::Pstream::commsTypes::nonBlocking);
-            continue;
-        }
+        if (boundary[i].coupled()) continue;
         Foam::Field<Type> values(boundary[i].size());
         const Foam::polyPatch& patch = boundary[i].patch().patch();
         forAll(values, f) values[f] = faceValue(patch[f]);
         boundary[i] == values;
     }
-    if (Foam::Pstream::parRun()) Foam::Pstream::waitRequests(firstRequest);
-    forAll(boundary, i)
-        if (boundary[i].coupled()) boundary[i].evaluate(Foam::Pstream::commsTypes::nonBlocking);
+    exchangeCoupled(field);
 }
 
 } // namespace
@@ -246,7 +253,7 @@ void FoamFields::rigidVelocity(const Cover& cover, const std::vector<Solid>& sol
     const SimplexMesh& mesh = adapter_.mesh;
     const int solid = cover.nearestSolid[mesh.elements[adapter_.cellElements[adapter_.cellStart[cell]]*(mesh.dim + 1)]];
     if (solid < 0) return;
-    const Foam::point& x = mesh_.C()[cell];
+    const Foam::point& x = mesh_.cellCentres()[cell]; // not C(): collective, and only ranks with solid cells come here
     const Vec3 u = solids[solid].velocityAt(Vec3(x.x(), x.y(), x.z()));
     for (int d = 0; d < mesh.dim; ++d) velocity[mesh.axes[d]] = u[mesh.axes[d]];
 }
@@ -270,7 +277,7 @@ void FoamFields::updateSolidFraction(const Cover& cover)
     auto& boundary = solid_->boundaryFieldRef();
     forAll(boundary, i)
         if (!boundary[i].coupled()) boundary[i] == boundary[i].patchInternalField()();
-    if (Foam::Pstream::parRun()) solid_->correctBoundaryConditions(); // no user conditions here: processor patches only
+    exchangeCoupled(*solid_);
 }
 
 void FoamFields::updatePatches()
