@@ -44,4 +44,6 @@ def _checkWater(report, barred, free):
     report.within("the same with bars, over that without", barred["coefficient"] / free["coefficient"], 0.1, 0.95, "", "the bars close a part")
     for name, run in (("with bars", barred), ("without bars", free)):
         force = flume.finalMean(run, run["water"]).sum() + flume.finalMean(run, run["contact"]).sum()
-        report.compare(f"force of water and bars on the pipes, {name}", force, run["momentum"], 0.1, "N", "momentum theorem, from the fields")
+        report.show(f"force of water and bars on the pipes, {name}", force, "N", f"{run['momentum']:.4g} N by the momentum theorem, from the fields")
+        report.within(f"difference of the two over what enters upstream, {name}", abs(force - run["momentum"]) / run["entering"], 0, 0.1, "",
+                      f"momentum balance; {run['entering']:.3g} N of pressure and momentum enter")

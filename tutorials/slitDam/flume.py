@@ -129,7 +129,7 @@ def results():
         last = discharge(h)[0] > h.time[-1] - 1
         run["outflow"] = discharge(h)[2][last].mean()
         run["coefficient"] = dischargeCoefficient(run["up"], run["outflow"])
-        run["momentum"] = momentum.forceOnPipes(case, h, setup, time[time >= time[-1] - 1 - 1e-9])
+        run["momentum"], run["entering"] = momentum.forceOnPipes(case, h, setup, time[time >= time[-1] - 1 - 1e-9])
         out[name] = run
     return out
 

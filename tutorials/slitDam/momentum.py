@@ -37,7 +37,8 @@ def wallForce(h):
 
 
 def forceOnPipes(case, h, setup, times):
-    """Mean force of water and bars on the pipes from the momentum between the first and the last of `times` [N]."""
+    """Mean force of water and bars on the pipes from the momentum between the first and the last of `times`, and what enters through the
+    upstream section (pressure and momentum flux): the largest of the terms whose difference the force is [N]."""
     up, down = ([_throughSection(case, t, x, setup) for t in times] for x in SECTIONS)
     mass, momentum = np.array([_between(case, t) for t in times]).T
     downSlope = GRAVITY * np.sin(np.arctan(setup["slope"]))
@@ -45,4 +46,4 @@ def forceOnPipes(case, h, setup, times):
     chosen = h.time > times[0]
     held = wallForce(h)[chosen].mean() if h.bodies else 0.0
     change = (momentum[-1] - momentum[0]) / (times[-1] - times[0])
-    return np.mean(up) - np.mean(down) + (mass.mean() + bars) * downSlope + held - change
+    return np.mean(up) - np.mean(down) + (mass.mean() + bars) * downSlope + held - change, np.mean(up)
