@@ -30,6 +30,7 @@ RunState example()
     flow.u.resize(3 * nNodes);
     std::iota(flow.u.begin(), flow.u.end(), 0.1);
     flow.uOld.assign(3 * nNodes, std::sqrt(2.0));
+    flow.pOld.assign(nNodes, 99.5);
     flow.p.assign(nNodes, -1e5 / 3);
     flow.alpha.assign(nNodes, std::numeric_limits<double>::denorm_min());
     flow.alphaOld.assign(nNodes, -0.0);
@@ -86,6 +87,7 @@ TEST_CASE("a checkpoint gives back every bit")
     CHECK(read.flow.dtOld == written.flow.dtOld);
     CHECK(read.flow.u == written.flow.u);
     CHECK(read.flow.uOld == written.flow.uOld);
+    CHECK(read.flow.pOld == written.flow.pOld);
     CHECK(read.flow.p == written.flow.p);
     CHECK(read.flow.alpha == written.flow.alpha);
     CHECK(std::signbit(read.flow.alphaOld.at(0)));
@@ -138,6 +140,7 @@ TEST_CASE("a damaged checkpoint is noticed wherever the damage is")
     const std::string whole = folder / "whole.h5", file = folder / "state.h5";
     RunState state = example();
     for (double& u : state.flow.u) u = std::sin(u); // no two blocks alike
+    for (std::size_t i = 0; i < nNodes; ++i) state.flow.p[i] = std::cos(0.7*double(i)), state.flow.pOld[i] = std::cos(0.9*double(i));
     writeCheckpoint(whole, state);
     const std::size_t size = std::filesystem::file_size(whole);
 
@@ -162,6 +165,7 @@ TEST_CASE("a damaged checkpoint is noticed wherever the damage is")
         const RunState read = readCheckpoint(file, nNodes);
         CHECK(read.flow.u == state.flow.u);
         CHECK(read.flow.p == state.flow.p);
+        CHECK(read.flow.pOld == state.flow.pOld);
         CHECK(read.flow.fineScale == state.flow.fineScale);
     }
     CHECK(noticed > 9 * harmless);
