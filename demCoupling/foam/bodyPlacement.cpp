@@ -120,6 +120,14 @@ double gap(const ShapeAtPose& a, const ShapeAtPose& b, double farther)
 std::optional<Conflict> findConflict(const ShapeAtPose& body, const Obstacles& obstacles, double minGap)
 {
     std::optional<Conflict> worst;
+    for (int d = 0; d < 3; ++d) // a body that is not in the mesh at all is behind its walls as well: the first says more
+    {
+        const double x = body.pose.position[d];
+        if (!obstacles.checkBox[d] || (x >= obstacles.box[0][d] && x <= obstacles.box[1][d])) continue;
+        keepWorse(worst, "the outside of the mesh", depthBehind(body, obstacles.box[0], Vec3::Unit(d)), 0);
+        keepWorse(worst, "the outside of the mesh", depthBehind(body, obstacles.box[1], -Vec3::Unit(d)), 0);
+    }
+    if (worst) return worst;
     for (const auto& plane : obstacles.planes) keepWorse(worst, "wall " + plane.name, depthBehind(body, plane.point, plane.normal), minGap);
     for (const auto& wall : obstacles.facets)
         keepWorse(worst, "wall " + wall.name, depthInFacets(body, wall.surface, 0.25*shortestSide(body)), minGap);
