@@ -26,7 +26,7 @@ struct NodalData
 constexpr double steepDensity = 1.5;
 
 /// Share of the element's mean in the density of a node's mass where the density varies: a node of nearly pure gas beside water is then moved by what the
-/// linear solver leaves at most some ten times as fast as water. Without it single gas nodes in splashes reached 100 m/s (tutorials/damBreak, tolerance 1e-5).
+/// linear solver leaves at most some twenty times as fast as water. Without it single gas nodes in splashes reached 100 m/s (tutorials/damBreak, tolerance 1e-5).
 constexpr double meanShare = 0.05;
 
 /// By element means, and by the nodes' values where these count.
