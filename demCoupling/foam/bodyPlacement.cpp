@@ -120,12 +120,15 @@ double gap(const ShapeAtPose& a, const ShapeAtPose& b, double farther)
 std::optional<Conflict> findConflict(const ShapeAtPose& body, const Obstacles& obstacles, double minGap)
 {
     std::optional<Conflict> worst;
+    const auto keepOutside = [&](int d, double sideGap)
+    {
+        keepWorse(worst, "the outside of the mesh", depthBehind(body, obstacles.box[0], Vec3::Unit(d)), sideGap);
+        keepWorse(worst, "the outside of the mesh", depthBehind(body, obstacles.box[1], -Vec3::Unit(d)), sideGap);
+    };
     for (int d = 0; d < 3; ++d) // a body that is not in the mesh at all is behind its walls as well: the first says more
     {
         const double x = body.pose.position[d];
-        if (!obstacles.checkBox[d] || (x >= obstacles.box[0][d] && x <= obstacles.box[1][d])) continue;
-        keepWorse(worst, "the outside of the mesh", depthBehind(body, obstacles.box[0], Vec3::Unit(d)), 0);
-        keepWorse(worst, "the outside of the mesh", depthBehind(body, obstacles.box[1], -Vec3::Unit(d)), 0);
+        if (obstacles.checkBox[d] && (x < obstacles.box[0][d] || x > obstacles.box[1][d])) keepOutside(d, 0);
     }
     if (worst) return worst;
     for (const auto& plane : obstacles.planes) keepWorse(worst, "wall " + plane.name, depthBehind(body, plane.point, plane.normal), minGap);
@@ -134,11 +137,8 @@ std::optional<Conflict> findConflict(const ShapeAtPose& body, const Obstacles& o
     for (const auto& other : obstacles.shapes) keepWorse(worst, other.name, -gap(body, other, std::max(minGap, 0.0) + 1e-6), minGap);
     for (int d = 0; d < 3; ++d)
     {
-        if (!obstacles.checkBox[d]) continue;
         // the sides of the box may be open boundaries: a body must be inside, but owes them no gap
-        const double sideGap = std::min(minGap, 0.0);
-        keepWorse(worst, "the outside of the mesh", depthBehind(body, obstacles.box[0], Vec3::Unit(d)), sideGap);
-        keepWorse(worst, "the outside of the mesh", depthBehind(body, obstacles.box[1], -Vec3::Unit(d)), sideGap);
+        if (obstacles.checkBox[d]) keepOutside(d, std::min(minGap, 0.0));
     }
     return worst;
 }

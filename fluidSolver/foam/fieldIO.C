@@ -45,19 +45,10 @@ public:
         // deviations from a value that all ranks share: uniform fields come out exactly
         const double reference = halo_.max(nCells > 0 ? cellValue(0) : -1e300);
         std::vector<double> sum(2*static_cast<std::size_t>(mesh.nNodes), 0.0);
-        std::vector<int> nodes; // of a cell, each once: how its simplices share them must not count
+        std::vector<int> nodes;
         for (int c = 0; c < nCells; ++c)
         {
-            nodes.clear();
-            double volume = 0;
-            for (int k = adapter_.cellStart[c]; k < adapter_.cellStart[c + 1]; ++k)
-            {
-                const int e = adapter_.cellElements[k];
-                volume += mesh.volume[e];
-                nodes.insert(nodes.end(), &mesh.elements[e*(mesh.dim + 1)], &mesh.elements[e*(mesh.dim + 1)] + mesh.dim + 1);
-            }
-            std::sort(nodes.begin(), nodes.end());
-            nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+            const double volume = collectCell(adapter_, c, nodes);
             for (int i : nodes)
             {
                 sum[2*std::size_t(i)] += volume*(cellValue(c) - reference);

@@ -16,6 +16,8 @@
 
 using namespace Foam;
 
+#include <algorithm>
+
 namespace flotsam
 {
 namespace
@@ -205,6 +207,23 @@ MeshAdapter makeSimplexMesh(const polyMesh& mesh, MPI_Comm comm)
     adapter.cellElements.setSize(label(distributed.elementOfInput.size()));
     std::copy(distributed.elementOfInput.begin(), distributed.elementOfInput.end(), adapter.cellElements.begin());
     return adapter;
+}
+
+double collectCell(const MeshAdapter& adapter, int cell, std::vector<int>& nodes)
+{
+    const SimplexMesh& mesh = adapter.mesh;
+    const int n = mesh.dim + 1;
+    nodes.clear();
+    double volume = 0;
+    for (int k = adapter.cellStart[cell]; k < adapter.cellStart[cell + 1]; ++k)
+    {
+        const std::size_t e = adapter.cellElements[k];
+        volume += mesh.volume[e];
+        nodes.insert(nodes.end(), &mesh.elements[e*n], &mesh.elements[e*n] + n);
+    }
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return volume;
 }
 
 } // namespace flotsam

@@ -61,15 +61,7 @@ private:
     void add(int c, double fraction)
     {
         PartlyFilled p{c, 0, fraction, 0, {}};
-        const int n = mesh_.dim + 1;
-        for (int k = adapter_.cellStart[c]; k < adapter_.cellStart[c + 1]; ++k)
-        {
-            const int e = adapter_.cellElements[k];
-            p.volume += mesh_.volume[e];
-            p.nodes.insert(p.nodes.end(), &mesh_.elements[std::size_t(e)*n], &mesh_.elements[std::size_t(e)*n] + n);
-        }
-        std::sort(p.nodes.begin(), p.nodes.end());
-        p.nodes.erase(std::unique(p.nodes.begin(), p.nodes.end()), p.nodes.end());
+        p.volume = collectCell(adapter_, c, p.nodes);
         p.size = std::pow(p.volume, 1.0/mesh_.dim);
         cells_.push_back(std::move(p));
     }
