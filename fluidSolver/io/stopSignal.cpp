@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/stopSignal.hpp"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -28,17 +31,39 @@ extern "C" void onWrite(int)
     writeSignal = 1;
 }
 
-void install(int number, void (*handler)(int))
+/// Open MPI's mpirun that is to end a job sends its processes SIGCONT first, then SIGTERM, then SIGKILL, `odls_base_sigkill_timeout` seconds apart.
+/// Waiting for SIGTERM would lose the first of these spans. It reads their output no more: writing to it must not kill.
+extern "C" void onContinue(int number, siginfo_t* info, void*)
 {
-    struct sigaction action = {};
-    action.sa_handler = handler;
-    action.sa_flags = SA_RESTART; // a file being written, a message being sent must not notice
+    if (info->si_code != SI_USER || info->si_pid != getppid()) return;
+    stopSignal = number;
+    std::signal(SIGPIPE, SIG_IGN);
+}
+
+void install(int number, struct sigaction action)
+{
+    action.sa_flags |= SA_RESTART; // a file being written, a message being sent must not notice
     sigemptyset(&action.sa_mask);
     if (sigaction(number, &action, nullptr) != 0)
     {
         throw std::runtime_error("cannot install the handler of signal " + std::to_string(number) + " ("
             + std::strerror(errno) + ")");
     }
+}
+
+void install(int number, void (*handler)(int))
+{
+    struct sigaction action = {};
+    action.sa_handler = handler;
+    install(number, action);
+}
+
+void installContinue()
+{
+    struct sigaction action = {};
+    action.sa_sigaction = onContinue;
+    action.sa_flags = SA_SIGINFO;
+    install(SIGCONT, action);
 }
 
 } // namespace
@@ -49,6 +74,7 @@ void installStopSignals()
     writeSignal = 0;
     for (const int number : {SIGINT, SIGTERM, SIGUSR2}) install(number, onStop);
     install(SIGUSR1, onWrite);
+    if (std::getenv("OMPI_COMM_WORLD_RANK")) installContinue();
 }
 
 bool stopRequested()

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <initializer_list>
 
 using namespace flotsam;
@@ -32,6 +33,26 @@ TEST_CASE("a request to write is taken once and ends nothing")
     CHECK(takeWriteRequest());
     CHECK(!takeWriteRequest());
     CHECK(!stopRequested());
+}
+
+TEST_CASE("the notice of mpirun that it ends the job counts, another SIGCONT does not")
+{
+    setenv("OMPI_COMM_WORLD_RANK", "0", 1);
+    installStopSignals();
+    raise(SIGCONT); // by this process, as a shell's
+    CHECK(!stopRequested());
+    const pid_t child = fork();
+    if (child == 0)
+    {
+        for (int k = 0; k < 500 && !stopRequested(); ++k) usleep(10000);
+        _exit(stopRequested() ? 0 : 1);
+    }
+    usleep(20000);
+    kill(child, SIGCONT); // by the parent, as mpirun's
+    int status = 0;
+    waitpid(child, &status, 0);
+    CHECK(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 0);
 }
 
 TEST_CASE("a second SIGINT kills at once")
