@@ -16,7 +16,7 @@ if [ "$(id -u)" = 0 ]; then
 fi
 export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_mpi_yield_when_idle=1
 export OMPI_MCA_btl_vader_single_copy_mechanism=none    # containers forbid it, with a message for every rank
-export OMPI_MCA_odls_base_sigkill_timeout=${OMPI_MCA_odls_base_sigkill_timeout:-5}   # after Ctrl-C: time to end a step and to write it
+export OMPI_MCA_odls_base_sigkill_timeout=${OMPI_MCA_odls_base_sigkill_timeout:-3}   # after Ctrl-C: time to end a step and to write it
 export OMP_NUM_THREADS=1
 
 # The python that has the packages: another one may stand first in PATH. Looked for each time this is sourced (they may have

@@ -48,7 +48,7 @@ done
 
 cd parallel || exit
 quietly decomposePar
-OMPI_MCA_odls_base_sigkill_timeout=3 signalled TERM mpirun -np 2 flotsamFoam -parallel && fail "mpirun: exit code 0 after SIGTERM"
+signalled TERM mpirun -np 2 flotsamFoam -parallel && fail "mpirun: exit code 0 after SIGTERM"
 seen=$(grep -E "$isStep" log.stopped | tail -n 1 | awk '{print $2}')
 last=$(foamListTimes -processor -latestTime 2> /dev/null | tail -n 1)
 awk -v t="$last" -v seen="$seen" 'BEGIN { exit !(t > 0 && t >= seen) }' || fail "nothing was written after SIGTERM to mpirun at time $seen: $(ls processor0)"
