@@ -81,7 +81,11 @@ const Cover& CoverBuilder::build(const std::vector<Solid>& solids)
 
 const Cover& CoverBuilder::buildExactVolume(std::vector<Solid>& solids)
 {
-    if (!sameFixedSolids(solids)) cutFixedSolids(solids);
+    if (!sameFixedSolids(solids))
+    {
+        correctFixedOffsets(solids);
+        cutFixedSolids(solids);
+    }
     sampleMovingSolids(solids);
     correctOffsets(solids);
     return cutMovingSolids(solids);
@@ -152,17 +156,19 @@ void CoverBuilder::addElementsOf(const std::vector<Sample>& samples, double offs
 
 // --- fixed solids
 
+bool CoverBuilder::isSameFixed(const Solid& now, const Solid& then)
+{
+    return now.shape == then.shape && now.offset == then.offset && now.pose.position == then.pose.position
+        && now.pose.orientation.coeffs() == then.pose.orientation.coeffs();
+}
+
 bool CoverBuilder::sameFixedSolids(const std::vector<Solid>& solids) const
 {
     if (!hasFixedCover_ || solids.size() != fixedSolids_.size()) return false;
     for (std::size_t s = 0; s < solids.size(); ++s)
     {
-        const Solid &now = solids[s], &then = fixedSolids_[s];
-        if (now.kind != then.kind) return false;
-        if (now.kind == Solid::Kind::Fixed
-            && (now.shape != then.shape || now.offset != then.offset || now.pose.position != then.pose.position
-                || now.pose.orientation.coeffs() != then.pose.orientation.coeffs()))
-            return false;
+        if (solids[s].kind != fixedSolids_[s].kind) return false;
+        if (solids[s].kind == Solid::Kind::Fixed && !isSameFixed(solids[s], fixedSolids_[s])) return false;
     }
     return true;
 }

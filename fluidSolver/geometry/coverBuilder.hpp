@@ -27,7 +27,8 @@ public:
 
     /// Before cutting, moves the surface of every free solid by one Newton step, starting from its current Solid::offset, so
     /// that the volume it cuts out alone (without neighbours) becomes exactVolume(). At most largestOffset.
-    /// A solid that reaches through the boundary of the mesh, or is not in it, keeps its offset. Collective.
+    /// A free solid that reaches through the boundary of the mesh, or is not in it, keeps its offset. Fixed slip solids are moved once,
+    /// to cut out the volume of their part inside the mesh. Collective.
     const Cover& buildExactVolume(std::vector<Solid>& solids);
 
     const Cover& cover() const { return cover_; }
@@ -51,11 +52,14 @@ private:
         double volume;
     };
 
+    static bool isSameFixed(const Solid& now, const Solid& then);
     bool sameFixedSolids(const std::vector<Solid>& solids) const;
     void cutFixedSolids(const std::vector<Solid>& solids);
     void sampleMovingSolids(const std::vector<Solid>& solids);
     void sample(const Solid& solid, std::vector<Sample>& samples) const;
     void correctOffsets(std::vector<Solid>& solids);
+    void correctFixedOffsets(std::vector<Solid>& solids);
+    double volumeInside(const Solid& solid, const std::vector<Sample>& samples);
     OwnCut cutAlone(const Solid& solid, const std::vector<Sample>& samples);
     const Cover& cutMovingSolids(const std::vector<Solid>& solids);
 

@@ -150,3 +150,26 @@ TEST_CASE("a neighbour does not change a body's offset, a body through the wall 
     builder.buildExactVolume(alone);
     CHECK(alone[0].offset == before);
 }
+
+TEST_CASE("a slip structure takes its exact volume out of the mesh, also where it reaches through the boundary")
+{
+    struct Case { int dim; std::shared_ptr<const Shape> shape; double exact; };
+    for (const Case& c : {Case{3, makeCylinder({0, 0, -2}, {0, 0, 2}, 0.2), 2 * M_PI * 0.04}, // 2.4 elements thick
+                          Case{3, makeSphere({0, 0, 1 - 0.011}, 0.4), 2 * M_PI * 0.064 / 3},    // half of it
+                          Case{2, makeCylinder({0, 0, -0.1}, {0, 0, 0.1}, 0.2), M_PI * 0.04},
+                          Case{2, makeBox(Vec3::Zero(), {0.5, 0.4, 0.2}), 0.2}})
+    {
+        const Scene scene(c.dim, 12);
+        CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+        std::vector<Solid> solids{makeSolid(c.shape)};
+        const double deficit = c.exact - builder.build(solids).solidVolume[0];
+        solids[0].wall = Solid::Wall::Slip;
+        CoverBuilder again(scene.mesh, scene.graph, scene.halo);
+        const double left = c.exact - again.buildExactVolume(solids).solidVolume[0];
+        MESSAGE("deficit " << deficit / c.exact << ", corrected " << left / c.exact << ", offset/h " << solids[0].offset * 6);
+        CHECK(std::abs(left) < 0.05 * std::abs(deficit));
+        const double offset = solids[0].offset;
+        again.buildExactVolume(solids);
+        CHECK(solids[0].offset == offset);
+    }
+}
