@@ -78,15 +78,17 @@ struct LiggghtsEngine::Implementation
     /// What comes next within `left` [s]: free flight for as long as nothing can touch anything, or a while of contact sub-steps.
     Interval nextInterval(double left, double largestStep)
     {
+        if (timeStep >= largestStep)
+            return {left, largestStep};
         const double shortest = stepsBetweenLooks * timeStep;
-        if (timeStep < largestStep && !isAnyTouched())
+        if (!isAnyTouched())
         {
             const std::vector<BodyState> now = states();
             for (double t = left; t >= std::min(left, shortest); t *= 0.5)
                 if (reach.isFree(now, loads, isHeld, t))
                     return {t, largestStep};
         }
-        return {left < 1.5 * shortest ? left : shortest, std::min(timeStep, largestStep)};
+        return {left < 1.5 * shortest ? left : shortest, timeStep};
     }
 
     void advance(const Interval& interval)
