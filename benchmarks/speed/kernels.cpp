@@ -230,6 +230,26 @@ void demSubSteps(benchmark::State& state)
 }
 BENCHMARK(demSubSteps)->ArgName("meshWalls")->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
+/// Bars piled against the pipes of the slit dam, at rest: one call is one step of the flow, from the state of its start as in the coupling.
+void demPile(benchmark::State& state)
+{
+    const DemSetup setup = demTest::pile();
+    LiggghtsEngine engine(setup);
+    engine.setLoads(demTest::pressing(setup));
+    for (int k = 0; k < 8; ++k) engine.advance(0.0125);
+    const DemState start = engine.save();
+    double subSteps = 0;
+    for (auto _ : state)
+    {
+        engine.restore(start);
+        engine.advance(0.0125);
+        subSteps += double(engine.subSteps());
+    }
+    state.counters["sub-step"] = benchmark::Counter(subSteps, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+    state.counters["contacts"] = double(engine.contacts().size());
+}
+BENCHMARK(demPile)->Unit(benchmark::kMillisecond);
+
 } // namespace
 
 int main(int argc, char** argv)

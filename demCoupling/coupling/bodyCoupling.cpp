@@ -11,6 +11,7 @@ namespace
 {
 
 constexpr int perBody = 7 + 6 + 3 + 6 + 1; // pose, motion, angular momentum, contact load, contact count
+constexpr int perWall = 6 + 1;              // contact load, contact count
 
 void put(double*& at, const Vec3& v) { for (int d = 0; d < 3; ++d) *at++ = v[d]; }
 void get(const double*& at, Vec3& v) { for (int d = 0; d < 3; ++d) v[d] = *at++; }
@@ -47,6 +48,7 @@ BodyCoupling::BodyCoupling(const DemSetup& setup, const CouplingControls& contro
     newContact_.resize(n);
     wallLoads_.resize(setup.walls.size());
     contactCounts_.assign(n, 0);
+    wallContactCounts_.assign(setup.walls.size(), 0);
     isHeld_.assign(n, 0);
     states_.resize(n);
     result_.resize(n);
@@ -83,7 +85,7 @@ void BodyCoupling::guarded(const std::function<void()>& work) const
 void BodyCoupling::shareResults()
 {
     const int n = nBodies(), walls = nWalls();
-    std::vector<double> buffer(std::size_t(n)*perBody + 3*walls + 1);
+    std::vector<double> buffer(std::size_t(n)*perBody + perWall*walls + 1);
     if (rank_ == 0)
     {
         double* at = buffer.data();
@@ -94,7 +96,12 @@ void BodyCoupling::shareResults()
             put(at, newContact_[b].moment);
             *at++ = contactCounts_[b];
         }
-        for (const Load& w : wallLoads_) put(at, w.force);
+        for (int w = 0; w < walls; ++w)
+        {
+            put(at, wallLoads_[w].force);
+            put(at, wallLoads_[w].moment);
+            *at++ = wallContactCounts_[w];
+        }
         *at = largestOverlap_;
     }
     MPI_Bcast(buffer.data(), int(buffer.size()), MPI_DOUBLE, 0, comm_);
@@ -106,7 +113,12 @@ void BodyCoupling::shareResults()
         get(at, newContact_[b].moment);
         contactCounts_[b] = int(*at++);
     }
-    for (Load& w : wallLoads_) get(at, w.force);
+    for (int w = 0; w < walls; ++w)
+    {
+        get(at, wallLoads_[w].force);
+        get(at, wallLoads_[w].moment);
+        wallContactCounts_[w] = int(*at++);
+    }
     largestOverlap_ = *at;
 }
 
@@ -120,11 +132,12 @@ void BodyCoupling::runEngine(double duration, const std::vector<Load>& loads)
         newContact_ = engine_->meanContactLoads();
         wallLoads_ = engine_->meanWallLoads();
         std::fill(contactCounts_.begin(), contactCounts_.end(), 0);
+        std::fill(wallContactCounts_.begin(), wallContactCounts_.end(), 0);
         largestOverlap_ = 0;
         for (const Contact& c : engine_->contacts())
         {
             ++contactCounts_[c.body];
-            if (c.other >= 0) ++contactCounts_[c.other];
+            ++(c.other >= 0 ? contactCounts_[c.other] : wallContactCounts_[-1 - c.other]);
             largestOverlap_ = std::max(largestOverlap_, c.overlap);
         }
         if (!engine_->hasContact()) newContact_.assign(newContact_.size(), Load()); // round-off of a free flight

@@ -50,8 +50,9 @@ public:
     const std::vector<BodyState>& states() const { return states_; }        ///< at t^n (after accept(): the new time)
     const std::vector<BodyState>& predicted() const { return predicted_; }  ///< at t^(n+1), pose to cut with
     const std::vector<Load>& contactLoads() const { return contact_; }      ///< to solve the fluid with; after accept(): what acted
-    const std::vector<Load>& wallLoads() const { return wallLoads_; }       ///< time means of the last DEM run
+    const std::vector<Load>& wallLoads() const { return wallLoads_; }       ///< time means of the last DEM run, moments about the origin of space
     const std::vector<int>& contactCounts() const { return contactCounts_; }
+    const std::vector<int>& wallContactCounts() const { return wallContactCounts_; } ///< bodies that touch each wall
     bool isHeld(int body) const { return isHeld_[body]; }
 
     int repeats() const { return repeats_; }            ///< further solves needed in this step
@@ -79,7 +80,7 @@ private:
     DemState saved_;                            // rank 0
     std::vector<BodyState> states_, predicted_, result_;
     std::vector<Load> lastLoads_, loads_, contact_, newContact_, wallLoads_;
-    std::vector<int> contactCounts_;
+    std::vector<int> contactCounts_, wallContactCounts_;
     std::vector<char> isHeld_;
     Anderson anderson_;
     double dt_ = 0, mismatch_ = 0, largestOverlap_ = 0, demTimeStep_ = 0;

@@ -154,7 +154,8 @@ std::vector<BodyRecord> CoupledStep::records() const
             const int wall = scene_.wallOf(int(s));
             if (wall < 0) continue;
             r.contactForce = coupling_->wallLoads()[wall].force;
-            r.contactMoment = coupling_->wallLoads()[wall].moment;
+            r.contactMoment = coupling_->wallLoads()[wall].moment - r.pose.position.cross(r.contactForce);
+            r.contacts = coupling_->wallContactCounts()[wall];
             continue;
         }
         r.pose = coupling_->states()[body].pose;

@@ -29,6 +29,9 @@ const DemSetup& checked(const DemSetup& setup)
 
 struct LiggghtsEngine::Implementation
 {
+    struct Interval { double duration, step; };
+    static constexpr int stepsBetweenLooks = 50; ///< whether anything is near: a look costs up to two sub-steps
+
     explicit Implementation(const DemSetup& given)
         : setup(checked(given)), reach(given.bodies, given.walls), isHeld(given.bodies.size(), 0),
           loads(given.bodies.size())
@@ -61,6 +64,42 @@ struct LiggghtsEngine::Implementation
     {
         const BodyArrays& b = model.bodies;
         return {asVec(b.fcm[body]) - asVec(b.drag[body]), asVec(b.torque[body]) - asVec(b.hdTorque[body])};
+    }
+
+    std::vector<BodyState> states() const
+    {
+        std::vector<BodyState> result;
+        result.reserve(static_cast<size_t>(model.bodies.count));
+        for (int b = 0; b < model.bodies.count; ++b)
+            result.push_back(stateOf(b));
+        return result;
+    }
+
+    /// What comes next within `left` [s]: free flight for as long as nothing can touch anything, or a while of contact sub-steps.
+    Interval nextInterval(double left, double largestStep)
+    {
+        if (timeStep >= largestStep)
+            return {left, largestStep};
+        const double shortest = stepsBetweenLooks * timeStep;
+        if (!isAnyTouched())
+        {
+            const std::vector<BodyState> now = states();
+            for (double t = left; t >= std::min(left, shortest); t *= 0.5)
+                if (reach.isFree(now, loads, isHeld, t))
+                    return {t, largestStep};
+        }
+        return {left < 1.5 * shortest ? left : shortest, timeStep};
+    }
+
+    void advance(const Interval& interval)
+    {
+        const long steps = std::max(1L, std::lround(std::ceil(interval.duration / interval.step * (1 - 1e-12))));
+        const double step = interval.duration / static_cast<double>(steps);
+        setTimeStep(model, step);
+        model.tally->startSteps(step);
+        run(model, steps);
+        model.tally->finishSteps();
+        subSteps += steps;
     }
 
     BodyState stateOf(int body) const
@@ -139,28 +178,23 @@ void LiggghtsEngine::advance(double duration, double largestStep)
     if (!(duration > 0) || !(largestStep > 0))
         throw DemError("advance: duration and largest step must be > 0");
     Implementation& d = *impl_;
-    const bool isFree = !d.isAnyTouched() && d.reach.isFree(states(), d.loads, d.isHeld, duration);
-    const double limit = isFree ? largestStep : std::min(d.timeStep, largestStep);
-    d.subSteps = std::max(1L, std::lround(std::ceil(duration / limit * (1 - 1e-12))));
-    setTimeStep(d.model, duration / static_cast<double>(d.subSteps));
+    d.subSteps = 0;
     requestRebuild(d.model);
     d.model.tally->start();
-    run(d.model, d.subSteps);
-    d.model.tally->finish(d.subSteps);
+    for (double left = duration; left > 1e-12 * duration;)
+    {
+        const Implementation::Interval next = d.nextInterval(left, largestStep);
+        d.advance(next);
+        left -= next.duration;
+    }
+    d.model.tally->finish(duration);
     d.model.instance.guarded([&] {
         checkBodies(d.model, d.setup);
         d.checkInside();
     });
 }
 
-std::vector<BodyState> LiggghtsEngine::states() const
-{
-    std::vector<BodyState> result;
-    result.reserve(static_cast<size_t>(impl_->model.bodies.count));
-    for (int b = 0; b < impl_->model.bodies.count; ++b)
-        result.push_back(impl_->stateOf(b));
-    return result;
-}
+std::vector<BodyState> LiggghtsEngine::states() const { return impl_->states(); }
 
 std::vector<Load> LiggghtsEngine::meanContactLoads() const { return impl_->model.tally->meanOnBodies(); }
 

@@ -3,6 +3,8 @@
 /// Pair contacts and planes are keyed by sphere tags, mesh contacts by sphere tag and triangle id.
 #include "demCoupling/liggghts/liggghtsHistory.hpp"
 
+#include "demCoupling/liggghts/closestPoint.hpp"
+
 #include "atom.h"
 #include "fix_mesh_surface.h"
 #include "force.h"
@@ -222,14 +224,42 @@ bool touchesMesh(const WallHandle& wall, int sphere)
     return MeshHistoryAccess::count(*wall.mesh->contactHistory(), sphere) > 0;
 }
 
+void findMeshTouches(const LiggghtsModel& model, int sphere, std::vector<MeshTouch>& touches)
+{
+    touches.clear();
+    const LAMMPS_NS::Atom& atoms = *model.instance.lammps().atom;
+    const Vec3 centre(atoms.x[sphere][0], atoms.x[sphere][1], atoms.x[sphere][2]);
+    for (size_t g = 0; g < model.meshes.size(); ++g)
+    {
+        FixContactHistoryMesh& history = *model.meshes[g].mesh->contactHistory();
+        if (MeshHistoryAccess::count(history, sphere) == 0)
+            continue;
+        LAMMPS_NS::TriMesh& mesh = *model.meshes[g].mesh->triMesh();
+        const int* triangles = MeshHistoryAccess::triangles(history, sphere);
+        for (int slot = 0; slot < history.nneighs(sphere); ++slot)
+        {
+            const int t = triangles[slot] >= 0 ? mesh.map(triangles[slot], 0) : -1;
+            if (t < 0)
+                continue;
+            Vec3 corners[3];
+            for (int k = 0; k < 3; ++k)
+                mesh.node_slow(t, k, corners[k].data());
+            const Vec3 point = closestPointOfTriangle(centre, corners[0], corners[1], corners[2]);
+            const double overlap = atoms.radius[sphere] - (point - centre).norm();
+            if (overlap > 0)
+                touches.push_back({g, point, overlap});
+        }
+    }
+}
+
 void appendHistories(const LiggghtsModel& model, std::vector<double>& data)
 {
     appendPairs(model, data);
     for (const WallHandle& wall : model.walls)
-        if (wall.mesh)
-            appendMesh(model, *wall.mesh->contactHistory(), data);
-        else
+        if (!wall.mesh)
             appendPlane(model, *wall.history, data);
+    for (const MeshGroup& group : model.meshes)
+        appendMesh(model, *group.mesh->contactHistory(), data);
 }
 
 size_t readHistories(LiggghtsModel& model, const std::vector<double>& data, size_t position)
@@ -237,10 +267,10 @@ size_t readHistories(LiggghtsModel& model, const std::vector<double>& data, size
     Reader reader(data, position);
     readPairs(model, reader);
     for (const WallHandle& wall : model.walls)
-        if (wall.mesh)
-            readMesh(model, *wall.mesh->contactHistory(), reader);
-        else
+        if (!wall.mesh)
             readPlane(model, *wall.history, reader);
+    for (const MeshGroup& group : model.meshes)
+        readMesh(model, *group.mesh->contactHistory(), reader);
     return reader.position();
 }
 

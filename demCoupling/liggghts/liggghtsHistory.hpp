@@ -14,7 +14,10 @@ namespace flotsam
 /// visit(sphere i, sphere j, tangential spring on i, its length) for every touching pair of spheres.
 void forEachPairContact(const LiggghtsModel& model, const std::function<void(int, int, const double*, int)>& visit);
 
-/// Whether this sphere (LIGGGHTS index) touches a triangle of a mesh wall.
+/// All triangles of all meshes that this sphere (LIGGGHTS index) touches.
+void findMeshTouches(const LiggghtsModel& model, int sphere, std::vector<MeshTouch>& touches);
+
+/// Whether this sphere touches a triangle of the mesh this wall is part of.
 bool touchesMesh(const WallHandle& wall, int sphere);
 
 } // namespace flotsam

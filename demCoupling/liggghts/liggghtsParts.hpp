@@ -31,7 +31,18 @@ struct WallHandle
     double coordinate = 0;      ///< of the plane on that axis [m]
     LAMMPS_NS::Fix* force = nullptr;    ///< plane: per-sphere force on the sphere [N]
     LAMMPS_NS::Fix* history = nullptr;  ///< plane: per-sphere tangential history
+    LAMMPS_NS::FixMeshSurface* mesh = nullptr; ///< may hold further walls, see MeshGroup
+};
+
+/// Walls that are one mesh in LIGGGHTS, which visits every sphere for every mesh in every sub-step. They are of one class, and so far
+/// apart that no sphere touches two of them.
+struct MeshGroup
+{
     LAMMPS_NS::FixMeshSurface* mesh = nullptr;
+    std::vector<int> walls;
+    std::vector<std::array<Vec3, 2>> boxes; ///< of the walls, a sphere's radius larger
+    /// The wall a point on a triangle or the centre of a touching sphere belongs to.
+    int wallAt(const Vec3& point) const;
 };
 
 /// Everything that lives inside one LIGGGHTS instance.
@@ -43,12 +54,14 @@ struct LiggghtsModel
     ContactTally* tally = nullptr;      ///< owned by LIGGGHTS' list of fixes
     LAMMPS_NS::Fix* meshForce = nullptr; ///< per-sphere force of all mesh walls [N]; null without mesh walls
     std::vector<WallHandle> walls;
+    std::vector<MeshGroup> meshes;
     BodyArrays bodies;
     std::vector<int> firstSphere;       ///< per body, and the total: sphere of index s has LIGGGHTS tag s+1
     ContactTable contacts;
 };
 
 // liggghtsScript.cpp
+double largestRadius(const DemSetup& setup);
 void writeScript(LiggghtsModel& model, const DemSetup& setup, double timeStep);
 void setTimeStep(LiggghtsModel& model, double timeStep);
 void run(LiggghtsModel& model, long steps);
@@ -71,6 +84,9 @@ void placeSpheres(LiggghtsModel& model);
 /// Lists of neighbours for the present positions; the next sub-step does the same when `requestRebuild` was called.
 void rebuildNeighbours(LiggghtsModel& model);
 void requestRebuild(LiggghtsModel& model);
+
+/// A triangle of a mesh that a sphere touches: nearest point and overlap [m].
+struct MeshTouch { size_t mesh; Vec3 point; double overlap; };
 
 // liggghtsHistory.cpp: tangential springs as plain doubles, keyed by sphere tags and triangle ids
 void appendHistories(const LiggghtsModel& model, std::vector<double>& data);

@@ -29,15 +29,6 @@ void include(Box& box, const Vec3& point, double margin = 0)
     box.upper = box.upper.cwiseMax(point.array().matrix() + Vec3::Constant(margin));
 }
 
-double largestRadius(const DemSetup& setup)
-{
-    double radius = 0;
-    for (const BodyDefinition& body : setup.bodies)
-        for (const SurfaceSphere& s : body.spheres)
-            radius = std::max(radius, s.radius);
-    return radius;
-}
-
 Box holdingEverything(const DemSetup& setup)
 {
     const double margin = 2 * largestRadius(setup) + setup.skin;
@@ -75,6 +66,15 @@ void addMaterialTable(LiggghtsModel& model, const std::string& name, const std::
 }
 
 } // namespace
+
+double largestRadius(const DemSetup& setup)
+{
+    double radius = 0;
+    for (const BodyDefinition& body : setup.bodies)
+        for (const SurfaceSphere& s : body.spheres)
+            radius = std::max(radius, s.radius);
+    return radius;
+}
 
 void writeScript(LiggghtsModel& model, const DemSetup& setup, double timeStep)
 {

@@ -16,7 +16,7 @@ namespace flotsam
 namespace
 {
 
-constexpr double formatNumber = 1;
+constexpr double formatNumber = 2;
 constexpr size_t headerLength = 4;
 constexpr size_t bodyLength = 11 * 3 + 4;
 constexpr size_t wallLength = 6;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/liggghts/liggghtsTally.hpp"
 
+#include "demCoupling/liggghts/liggghtsHistory.hpp"
+
 #include "atom.h"
 #include "fix_mesh_surface.h"
 #include "mesh_module_stress.h"
@@ -15,6 +17,16 @@ namespace
 {
 
 Vec3 asVec(const double* v) { return Vec3(v[0], v[1], v[2]); }
+
+/// The force on a triangle is protected; a derived class may name it.
+struct StressAccess : LAMMPS_NS::MeshModuleStress
+{
+    static const double* force(LAMMPS_NS::MeshModuleStress& stress, int triangle)
+    {
+        double* (LAMMPS_NS::MeshModuleStress::*method)(int) = &StressAccess::f;
+        return (stress.*method)(triangle);
+    }
+};
 
 Load meshLoad(LAMMPS_NS::FixMeshSurface& mesh)
 {
@@ -93,12 +105,69 @@ Load ContactTally::planeLoad(size_t index) const
     return load;
 }
 
+void ContactTally::readSharedMeshForces(const MeshGroup& group)
+{
+    for (const int w : group.walls)
+        wallNow_[static_cast<size_t>(w)] = {};
+    auto& stress = static_cast<LAMMPS_NS::MeshModuleStress&>(*group.mesh->get_module("stress"));
+    LAMMPS_NS::TriMesh& mesh = *group.mesh->triMesh();
+    for (int t = 0; t < mesh.sizeLocal(); ++t)
+    {
+        const double* f = StressAccess::force(stress, t);
+        if (f[0] == 0 && f[1] == 0 && f[2] == 0)
+            continue;
+        Vec3 centre;
+        mesh.center(t, centre.data());
+        wallNow_[static_cast<size_t>(group.wallAt(centre))].force += asVec(f);
+    }
+}
+
+/// From the force of all meshes on a sphere, the only one LIGGGHTS keeps: exact unless a sphere touches two triangles that do not lie
+/// in one plane, which get it shared out by overlap.
+void ContactTally::readSharedMeshMoments()
+{
+    const LAMMPS_NS::Atom& atoms = *lmp->atom;
+    for (int i = 0; i < atoms.nlocal; ++i)
+    {
+        const Vec3 force = asVec(model_.meshForce->array_atom[i]);
+        if (force.isZero(0))
+            continue;
+        findMeshTouches(model_, i, touches_);
+        double total = 0;
+        for (const MeshTouch& touch : touches_)
+            total += touch.overlap;
+        for (const MeshTouch& touch : touches_)
+        {
+            const MeshGroup& group = model_.meshes[touch.mesh];
+            if (group.walls.size() > 1)
+                wallNow_[static_cast<size_t>(group.wallAt(touch.point))].moment -= touch.point.cross(force) * (touch.overlap / total);
+        }
+    }
+}
+
+void ContactTally::readMeshes()
+{
+    bool isAnyShared = false;
+    for (const MeshGroup& group : model_.meshes)
+        if (group.walls.size() == 1)
+            wallNow_[static_cast<size_t>(group.walls.front())] = meshLoad(*group.mesh);
+        else
+        {
+            isAnyShared = true;
+            readSharedMeshForces(group);
+        }
+    if (isAnyShared)
+        readSharedMeshMoments();
+}
+
 bool ContactTally::readWalls()
 {
+    readMeshes();
     bool isTouched = false;
     for (size_t w = 0; w < model_.walls.size(); ++w)
     {
-        wallNow_[w] = model_.walls[w].mesh ? meshLoad(*model_.walls[w].mesh) : planeLoad(w);
+        if (!model_.walls[w].mesh)
+            wallNow_[w] = planeLoad(w);
         isTouched = isTouched || !wallNow_[w].force.isZero(0);
     }
     return isTouched;
@@ -134,14 +203,21 @@ void ContactTally::add(double weight)
 
 void ContactTally::start()
 {
-    // the walls' loads are those of the last sub-step, or of the state restored since
-    hasContact_ = readBodies();
-    for (const Load& load : wallNow_)
-        hasContact_ = hasContact_ || !load.force.isZero(0);
+    hasContact_ = false;
+    readBodies();
     bodySum_.assign(bodyNow_.size(), {});
     wallSum_.assign(wallNow_.size(), {});
+}
+
+void ContactTally::startSteps(double step)
+{
+    step_ = step;
+    // the walls' loads are those of the last sub-step, or of the state restored since
+    hasContact_ = readBodies() || hasContact_;
+    for (const Load& load : wallNow_)
+        hasContact_ = hasContact_ || !load.force.isZero(0);
     if (hasContact_)
-        add(0.5);
+        add(0.5 * step_);
 }
 
 void ContactTally::end_of_step()
@@ -149,19 +225,22 @@ void ContactTally::end_of_step()
     if (readAll())
     {
         hasContact_ = true;
-        add(1);
+        add(step_);
     }
 }
 
-void ContactTally::finish(long steps)
+void ContactTally::finishSteps()
 {
     if (hasContact_)
-        add(-0.5); // the last force is used with its second half only
-    const double weight = 1 / static_cast<double>(steps);
+        add(-0.5 * step_); // the last force is used with its second half only
+}
+
+void ContactTally::finish(double duration)
+{
     for (size_t b = 0; b < bodySum_.size(); ++b)
-        bodyMean_[b] = {bodySum_[b].force * weight, bodySum_[b].moment * weight};
+        bodyMean_[b] = {bodySum_[b].force / duration, bodySum_[b].moment / duration};
     for (size_t w = 0; w < wallSum_.size(); ++w)
-        wallMean_[w] = {wallSum_[w].force * weight, wallSum_[w].moment * weight};
+        wallMean_[w] = {wallSum_[w].force / duration, wallSum_[w].moment / duration};
 }
 
 } // namespace flotsam

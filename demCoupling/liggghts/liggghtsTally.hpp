@@ -32,7 +32,10 @@ public:
     /// Contact loads on bodies and walls at this instant (after set-up).
     void sample();
     void start();
-    void finish(long steps);
+    /// Before and after sub-steps of equal length [s].
+    void startSteps(double step);
+    void finishSteps();
+    void finish(double duration);
 
     const std::vector<Load>& meanOnBodies() const { return bodyMean_; }
     const std::vector<Load>& meanOnWalls() const { return wallMean_; }
@@ -46,12 +49,17 @@ private:
     bool readWalls();
     bool readAll();
     Load planeLoad(size_t wall) const;
+    void readMeshes();
+    void readSharedMeshForces(const MeshGroup& group);
+    void readSharedMeshMoments();
     void add(double weight);
 
     LiggghtsModel& model_;
     std::vector<Load> bodyNow_, bodySum_, bodyMean_, wallNow_, wallSum_, wallMean_;
     std::vector<std::vector<int>> nearPlane_; ///< per wall: spheres that can touch it before the next rebuild
+    std::vector<MeshTouch> touches_;
     bool hasContact_ = false;
+    double step_ = 0;   ///< [s]
 };
 
 } // namespace flotsam

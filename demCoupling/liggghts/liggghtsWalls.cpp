@@ -100,6 +100,11 @@ TriSurface largeSquare(const WallDefinition& wall, const DemSetup& setup)
     return square;
 }
 
+TriSurface meshOf(const WallDefinition& wall, const DemSetup& setup)
+{
+    return wall.kind == WallDefinition::Kind::Plane ? largeSquare(wall, setup) : wall.surface;
+}
+
 WallHandle addPlane(LiggghtsModel& model, const WallDefinition& wall, int axis, int index)
 {
     WallHandle handle;
@@ -117,15 +122,14 @@ WallHandle addPlane(LiggghtsModel& model, const WallDefinition& wall, int axis, 
     return handle;
 }
 
-void addMesh(LiggghtsModel& model, const WallDefinition& wall, const TriSurface& surface, int index)
+void addMesh(LiggghtsModel& model, const std::string& name, const TriSurface& surface, int contactClass, size_t index)
 {
     if (surface.triangles.empty())
-        throw DemError("wall '" + wall.name + "': its surface has no triangles");
+        throw DemError("wall '" + name + "': its surface has no triangles");
     TemporaryFile stl;
     writeStl(stl, surface);
-    const int type = model.contacts.classOfWall[static_cast<size_t>(index)] + 1;
     std::vector<std::string> arguments =
-        words("mesh" + std::to_string(index) + " all mesh/surface/stress file FILE type " + std::to_string(type)
+        words("mesh" + std::to_string(index) + " all mesh/surface/stress file FILE type " + std::to_string(contactClass + 1)
               + " curvature_tolerant yes stress on");
     arguments[4] = stl.path();
     try
@@ -134,8 +138,44 @@ void addMesh(LiggghtsModel& model, const WallDefinition& wall, const TriSurface&
     }
     catch (const DemError& e)
     {
-        throw DemError("wall '" + wall.name + "': its surface is not accepted: " + e.what());
+        throw DemError("wall '" + name + "': its surface is not accepted: " + e.what());
     }
+}
+
+std::array<Vec3, 2> boxOf(const TriSurface& surface, double margin)
+{
+    std::array<Vec3, 2> box {Vec3::Constant(1e300), Vec3::Constant(-1e300)};
+    for (const Vec3& p : surface.points)
+        box = {box[0].cwiseMin(p - Vec3::Constant(margin)), box[1].cwiseMax(p + Vec3::Constant(margin))};
+    return box;
+}
+
+bool areApart(const std::array<Vec3, 2>& a, const std::array<Vec3, 2>& b)
+{
+    return (a[0].array() > b[1].array()).any() || (b[0].array() > a[1].array()).any();
+}
+
+/// The first mesh this wall can join, or a new one.
+MeshGroup& groupFor(LiggghtsModel& model, const std::array<Vec3, 2>& box, int contactClass)
+{
+    for (MeshGroup& group : model.meshes)
+    {
+        bool fits = model.contacts.classOfWall[static_cast<size_t>(group.walls.front())] == contactClass;
+        for (const std::array<Vec3, 2>& other : group.boxes)
+            fits = fits && areApart(box, other);
+        if (fits)
+            return group;
+    }
+    model.meshes.emplace_back();
+    return model.meshes.back();
+}
+
+void append(TriSurface& surface, const TriSurface& more)
+{
+    const int first = static_cast<int>(surface.points.size());
+    surface.points.insert(surface.points.end(), more.points.begin(), more.points.end());
+    for (const std::array<int, 3>& t : more.triangles)
+        surface.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
 }
 
 } // namespace
@@ -156,36 +196,57 @@ std::vector<std::string> words(const std::string& text)
     return result;
 }
 
+int MeshGroup::wallAt(const Vec3& point) const
+{
+    for (size_t k = 0; k < walls.size(); ++k)
+        if ((point.array() >= boxes[k][0].array()).all() && (point.array() <= boxes[k][1].array()).all())
+            return walls[k];
+    return -1;
+}
+
 void addWalls(LiggghtsModel& model, const DemSetup& setup)
 {
-    std::string meshes;
-    int meshCount = 0;
+    const double margin = 1.001 * largestRadius(setup); // boxes that do not meet: no sphere reaches both walls
     for (size_t w = 0; w < setup.walls.size(); ++w)
     {
         const WallDefinition& wall = setup.walls[w];
         const int index = static_cast<int>(w);
         const int axis = wall.kind == WallDefinition::Kind::Plane ? alignedAxis(wall) : -1;
+        model.walls.push_back(axis >= 0 ? addPlane(model, wall, axis, index) : WallHandle());
         if (axis >= 0)
-        {
-            model.walls.push_back(addPlane(model, wall, axis, index));
             continue;
-        }
-        addMesh(model, wall, wall.kind == WallDefinition::Kind::Plane ? largeSquare(wall, setup) : wall.surface, index);
-        model.walls.emplace_back();
-        meshes += " mesh" + std::to_string(index);
-        ++meshCount;
+        const std::array<Vec3, 2> box = boxOf(meshOf(wall, setup), margin);
+        MeshGroup& group = groupFor(model, box, model.contacts.classOfWall[w]);
+        group.walls.push_back(index);
+        group.boxes.push_back(box);
     }
-    if (meshCount == 0)
+    if (model.meshes.empty())
         return;
+    std::string meshes;
+    for (size_t g = 0; g < model.meshes.size(); ++g)
+    {
+        TriSurface surface;
+        std::string names;
+        for (const int w : model.meshes[g].walls)
+        {
+            const WallDefinition& wall = setup.walls[static_cast<size_t>(w)];
+            append(surface, meshOf(wall, setup));
+            names += (names.empty() ? "" : ", ") + wall.name;
+        }
+        addMesh(model, names, surface, model.contacts.classOfWall[static_cast<size_t>(model.meshes[g].walls.front())], g);
+        meshes += " mesh" + std::to_string(g);
+    }
     // LIGGGHTS allows one wall fix of mesh type; it may hold many meshes
     model.instance.addFix(words("meshes all wall/gran model hooke/stiffness tangential history mesh n_meshes "
-                                + std::to_string(meshCount) + " meshes" + meshes + " store_force yes "
+                                + std::to_string(model.meshes.size()) + " meshes" + meshes + " store_force yes "
                                 + contactModelOptions()));
     model.meshForce = model.instance.findFix("force_meshes");
-    for (size_t w = 0; w < setup.walls.size(); ++w)
-        if (model.walls[w].axis < 0)
-            model.walls[w].mesh =
-                static_cast<LAMMPS_NS::FixMeshSurface*>(model.instance.findFix("mesh" + std::to_string(w)));
+    for (size_t g = 0; g < model.meshes.size(); ++g)
+    {
+        model.meshes[g].mesh = static_cast<LAMMPS_NS::FixMeshSurface*>(model.instance.findFix("mesh" + std::to_string(g)));
+        for (const int w : model.meshes[g].walls)
+            model.walls[static_cast<size_t>(w)].mesh = model.meshes[g].mesh;
+    }
 }
 
 } // namespace flotsam

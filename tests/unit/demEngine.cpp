@@ -74,7 +74,9 @@ TEST_CASE("large steps while nothing is near, contact steps otherwise")
         engine.advance(1e-3, 1e-4);
     CHECK(engine.subSteps() == 10);
     engine.advance(2e-3, 1e-4);
-    CHECK(engine.subSteps() == std::lround(std::ceil(2e-3 / engine.timeStep())));
+    // touches about 1 ms after the start: free until shortly before, then contact steps
+    CHECK(engine.subSteps() > std::lround(0.5e-3 / engine.timeStep()));
+    CHECK(engine.subSteps() < std::lround(1.3e-3 / engine.timeStep()));
     CHECK(engine.hasContact());
     for (int i = 0; i < 20; ++i)
         engine.advance(1e-3, 1e-4);

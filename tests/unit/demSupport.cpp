@@ -147,4 +147,30 @@ DemSetup heap(int count, bool hasMeshes)
     return scene(std::move(bodies), std::move(walls), law);
 }
 
+DemSetup pile()
+{
+    std::vector<BodyDefinition> bodies;
+    for (int column = 0; column < 4; ++column)
+        for (int row = 0; row < 5; ++row)
+        {
+            BodyDefinition body = debris(Vec3(-0.0212 - 0.0205 * column, 0.004 * ((row + column) % 3 - 1), 0.0105 + 0.0205 * row));
+            body.pose.orientation = Eigen::AngleAxisd(M_PI / 2 + 0.01 * (row - 2), Vec3::UnitZ());
+            body.name += std::to_string(bodies.size());
+            bodies.push_back(body);
+        }
+    std::vector<WallDefinition> walls = {plane(Vec3::Zero(), Vec3::UnitZ()), plane(Vec3(0, -0.14, 0), Vec3::UnitY()),
+                                         plane(Vec3(0, 0.14, 0), -Vec3::UnitY())};
+    for (int i = -3; i <= 3; ++i)
+        walls.push_back(pipe(Vec3(0, 0.04 * i, -0.01), 0.01085, 0.28, 32));
+    return scene(std::move(bodies), std::move(walls));
+}
+
+std::vector<Load> pressing(const DemSetup& setup)
+{
+    std::vector<Load> loads = weights(setup);
+    for (Load& load : loads)
+        load.force = Vec3(0.2, 0, 0.1 * load.force.z());
+    return loads;
+}
+
 } // namespace demTest

@@ -37,4 +37,9 @@ std::vector<Load> weights(const DemSetup& setup);
 /// `count` bars falling into a container of five walls; with mesh walls instead of planes if asked.
 DemSetup heap(int count, bool hasMeshes);
 
+/// Twenty bars piled against the seven pipes of the slit dam, upstream of them on a bed between two side walls.
+DemSetup pile();
+/// What presses that pile together: a current along x, a tenth of the weight.
+std::vector<Load> pressing(const DemSetup& setup);
+
 } // namespace demTest

@@ -131,6 +131,35 @@ TEST_CASE("pipes: a bar across two of them leans on both")
     CHECK(engine.states()[0].motion.velocity.norm() < 1e-4);
 }
 
+TEST_CASE("pipes that share a mesh each feel what bars press on them, and at its place")
+{
+    DemSetup setup = pile();
+    LiggghtsEngine engine(setup);
+    engine.setLoads(pressing(setup));
+    const double duration = 1e-3;
+    double worstForce = 0, worstMoment = 0, worstArm = 0, pressed = 0;
+    for (int k = 0; k < 40; ++k)
+    {
+        engine.advance(duration);
+        const Totals t = totals(engine);
+        worstForce = std::max(worstForce, (t.bodies + t.walls).norm());
+        worstMoment = std::max(worstMoment, (t.bodyMoments + t.wallMoments).norm());
+    }
+    const auto walls = engine.meanWallLoads();
+    for (size_t w = 3; w < walls.size(); ++w)
+    {
+        // the force along x acts on the pipe's front: moment about z over force is the pipe's place across
+        const double force = walls[w].force.x(), place = setup.walls[w].surface.points.front().y();
+        pressed += force;
+        if (force > 0.1)
+            worstArm = std::max(worstArm, std::abs(-walls[w].moment.z() / force - place));
+    }
+    CHECK(worstForce < 1e-9);
+    CHECK(worstMoment < 2e-3);
+    CHECK(worstArm < 0.01085);
+    CHECK(pressed > 1);
+}
+
 TEST_CASE("a body squeezed evenly between two walls loads both")
 {
     DemSetup setup = scene({ball(0.01, 0.05, Vec3::Zero())},
