@@ -102,9 +102,7 @@ void PressureHierarchy::createCycle()
     check(PCHYPRESetType(cycle_, "boomeramg"));
     check(PCSetOptionsPrefix(cycle_, "pressure_"));
     const char* options[][2] = {{"coarsen_type", "PMIS"}, {"interp_type", "ext+i"}, {"strong_threshold", "0.25"},
-        {"agg_nl", "1"}, {"P_max", "4"}, {"relax_type_coarse", "symmetric-SOR/Jacobi"},
-        // one sweep a level, downwards forward and upwards backward: the cycle is symmetric at half the work of symmetric sweeps
-        {"relax_type_down", "SOR/Jacobi"}, {"relax_type_up", "backward-SOR/Jacobi"}};
+        {"agg_nl", "1"}, {"P_max", "4"}, {"relax_type_coarse", "symmetric-SOR/Jacobi"}};
     for (auto& o : options)
     {
         const std::string key = std::string("-pressure_pc_hypre_boomeramg_") + o[0];
