@@ -3,8 +3,6 @@
 
 #include "algebra/petscCalls.hpp"
 
-#include <cmath>
-
 namespace flotsam
 {
 
@@ -14,7 +12,6 @@ namespace
 constexpr int maxAge = 20;              // steps a hierarchy is kept at most
 constexpr int maxAgeWhileCutMoves = 4;
 constexpr int setupCost = 3;            // GMRES iterations that cost as much as a new hierarchy
-constexpr double largestDrift = 0.3;    // of the logarithm of the typical diagonal
 constexpr double singularShift = 1e-7;  // relative diagonal shift of the matrix without a pressure level
 
 } // namespace
@@ -22,7 +19,7 @@ constexpr double singularShift = 1e-7;  // relative diagonal shift of the matrix
 PressureHierarchy::PressureHierarchy(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo)
 :   mesh_(mesh), graph_(graph), halo_(halo)
 {
-    check(VecCreateMPIWithArray(halo.comm(), 1, mesh.nOwned, PETSC_DETERMINE, nullptr, &in_));
+    check(VecCreateMPI(halo.comm(), mesh.nOwned, PETSC_DETERMINE, &in_));
     check(VecCreateMPIWithArray(halo.comm(), 1, mesh.nOwned, PETSC_DETERMINE, nullptr, &out_));
 }
 
@@ -113,33 +110,21 @@ void PressureHierarchy::createCycle()
     check(PCSetFromOptions(cycle_));
 }
 
-double PressureHierarchy::typicalDiagonal(const FlowSystem& system) const
-{
-    double sum = 0;
-    long n = 0;
-    for (int i = 0; i < mesh_.nOwned; ++i)
-        if (system.isActive[i]) { sum += std::log(schurDiagonal(system, graph_, i)); ++n; }
-    sum = halo_.sum(sum);
-    n = halo_.sum(n);
-    return n ? std::exp(sum/n) : 1;
-}
-
 /// A hierarchy ages with the surface's motion: each step takes some iterations more than the best one. It is renewed when the last step's
 /// excess is above the mean of what a step has cost in excess and set-up: from then on that mean would rise.
-bool PressureHierarchy::isWorn(const FlowSystem& system, double typical) const
+bool PressureHierarchy::isWorn(const FlowSystem& system) const
 {
     if (age_ < 0 || age_ >= maxAge) return true;
-    if (std::abs(std::log(typical/builtFor_)) > largestDrift) return true;
     if (system.geometryChanged && age_ >= maxAgeWhileCutMoves) return true;
     return lastExcess_ > 0 && lastExcess_*nSolves_ >= setupCost + sumOfExcess_;
 }
 
-void PressureHierarchy::update(const FlowSystem& system)
+void PressureHierarchy::update(const FlowSystem& system, const std::vector<double>& scale)
 {
-    const double typical = typicalDiagonal(system);
-    if (!isWorn(system, typical))
+    if (!isWorn(system))
     {
         ++age_;
+        for (int i = 0; i < mesh_.nOwned; ++i) weight_[i] = scale[i]/builtScale_[i];
         return;
     }
     createMatrix(system);
@@ -148,16 +133,20 @@ void PressureHierarchy::update(const FlowSystem& system)
     check(PCSetOperators(cycle_, matrix_, matrix_));
     check(PCSetUp(cycle_));
     age_ = nSolves_ = leastIterations_ = lastExcess_ = sumOfExcess_ = 0;
-    builtFor_ = typical;
+    builtScale_ = scale;
+    weight_.assign(mesh_.nOwned, 1.0);
 }
 
 void PressureHierarchy::apply(const double* r, double* p)
 {
-    check(VecPlaceArray(in_, r));
+    PetscScalar* in;
+    check(VecGetArrayWrite(in_, &in));
+    for (int i = 0; i < mesh_.nOwned; ++i) in[i] = weight_[i]*r[i];
+    check(VecRestoreArrayWrite(in_, &in));
     check(VecPlaceArray(out_, p));
     check(PCApply(cycle_, in_, out_));
-    check(VecResetArray(in_));
     check(VecResetArray(out_));
+    for (int i = 0; i < mesh_.nOwned; ++i) p[i] *= weight_[i];
 }
 
 void PressureHierarchy::countIterations(int iterations)

@@ -46,7 +46,8 @@ void ScaledFlowSystem::set(const FlowSystem& system)
     for (int i = 0; i < mesh_.nOwned && !system.hasPressureLevel; ++i)
         if (system.isActive[i]) fluidVolume_ += system.dualVolume[i];
     fluidVolume_ = halo_.sum(fluidVolume_);
-    pressure_.update(system);
+    for (int i = 0; i < mesh_.nOwned; ++i) pressureRows_[i] = scale_[std::size_t(i)*B_ + B_ - 1];
+    pressure_.update(system, pressureRows_);
 }
 
 template<int D>
