@@ -107,7 +107,6 @@ struct FlowLinearSolver::Implementation
         check(KSPSetType(krylov, KSPGMRES));
         check(KSPGMRESSetRestart(krylov, controls.restart));
         check(KSPGMRESSetCGSRefinementType(krylov, KSP_GMRES_CGS_REFINE_IFNEEDED));
-        check(KSPSetPCSide(krylov, PC_RIGHT));
         PC pc;
         check(KSPGetPC(krylov, &pc));
         check(PCSetType(pc, PCSHELL));
@@ -115,6 +114,7 @@ struct FlowLinearSolver::Implementation
         check(PCShellSetApply(pc, applyPreconditioner));
         check(PCShellSetApplyBA(pc, applyPreconditionedMatrix));
         check(KSPSetFromOptions(krylov));
+        check(KSPSetPCSide(krylov, PC_RIGHT)); // after the options: applyPreconditionedMatrix() knows no other
     }
 
     /// Residual into rhs; its norm and that of the right-hand side.
