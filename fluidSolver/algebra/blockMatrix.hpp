@@ -25,9 +25,14 @@ struct BlockMatrix
         pressure.resize(entries);
     }
 
-    void setZero()
+    /// Entries begin to end - 1.
+    void setZero(std::size_t begin, std::size_t end, int dim)
     {
-        for (auto* a : {&velocity, &gradient, &divergence, &pressure}) std::fill(a->begin(), a->end(), 0.0);
+        const auto fill = [&](std::vector<double>& a, std::size_t width) { std::fill(a.begin() + begin*width, a.begin() + end*width, 0.0); };
+        fill(velocity, std::size_t(dim)*dim);
+        fill(gradient, dim);
+        fill(divergence, dim);
+        fill(pressure, 1);
     }
 
     /// Adds a block of (D+1)^2 values, row-major, velocity first.

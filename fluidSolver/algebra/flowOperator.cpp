@@ -6,14 +6,17 @@
 namespace flotsam
 {
 
-template<int D>
-void FlowOperator::fluidRowsT(const double* x, const double* q, double* y) const
+/// Rows on the node graph. Without gradient: `ofPressure` has its products already, a fifth of the matrix need not be read.
+template<int D, bool withGradient>
+void FlowOperator::graphRows(const double* x, const double* ofPressure, double* y) const
 {
     constexpr int B = D + 1;
     const int* column = graph_.column.data();
     for (int i = 0; i < nOwned_; ++i)
     {
         double sum[B] = {};
+        if (!withGradient)
+            for (int r = 0; r < D; ++r) sum[r] = ofPressure[std::size_t(i)*D + r];
         for (int k = graph_.rowStart[i]; k < graph_.rowStart[i + 1]; ++k)
         {
             const double* K = &s_.matrix.velocity[std::size_t(k)*D*D];
@@ -23,13 +26,19 @@ void FlowOperator::fluidRowsT(const double* x, const double* q, double* y) const
             for (int r = 0; r < D; ++r)
             {
                 for (int c = 0; c < D; ++c) sum[r] += K[r*D + c]*v[c];
-                sum[r] += G[r]*v[D];
+                if (withGradient) sum[r] += G[r]*v[D];
                 sum[D] += W[r]*v[r];
             }
             sum[D] += s_.matrix.pressure[k]*v[D];
         }
-        for (int r = 0; r < B; ++r) y[i*B + r] = sum[r];
+        for (int r = 0; r < B; ++r) y[std::size_t(i)*B + r] = sum[r];
     }
+}
+
+template<int D>
+void FlowOperator::addGhosts(const double* x, double* y) const
+{
+    constexpr int B = D + 1;
     for (const GhostTerm& g : s_.ghosts)
     {
         double jump[B] = {};
@@ -47,7 +56,12 @@ void FlowOperator::fluidRowsT(const double* x, const double* q, double* y) const
             w[D] += g.pressureFactor*g.jumpPressure[j]*jump[D];
         }
     }
-    if (!q) return;
+}
+
+template<int D>
+void FlowOperator::addSolids(const double* q, double* y) const
+{
+    constexpr int B = D + 1;
     for (std::size_t s = 0; s < s_.solids.size(); ++s)
     {
         const SolidCoupling& solid = s_.solids[s];
@@ -57,9 +71,18 @@ void FlowOperator::fluidRowsT(const double* x, const double* q, double* y) const
             if (solid.node[k] >= nOwned_) continue;
             const double* c = solid.column.data() + k*B*s_.nDof;
             for (int r = 0; r < B; ++r)
-                for (int d = 0; d < s_.nDof; ++d) y[solid.node[k]*B + r] += c[r*s_.nDof + d]*qs[d];
+                for (int d = 0; d < s_.nDof; ++d) y[std::size_t(solid.node[k])*B + r] += c[r*s_.nDof + d]*qs[d];
         }
     }
+}
+
+template<int D>
+void FlowOperator::fluidRowsT(const double* x, const double* q, double* y, const double* ofPressure) const
+{
+    if (ofPressure) graphRows<D, false>(x, ofPressure, y);
+    else graphRows<D, true>(x, nullptr, y);
+    addGhosts<D>(x, y);
+    if (q) addSolids<D>(q, y);
 }
 
 template<int D>
@@ -94,7 +117,6 @@ void FlowOperator::divergenceT(const double* x, const double* q, double* y) cons
 template<int D>
 void FlowOperator::gradientT(const double* p, double* y) const
 {
-    constexpr int B = D + 1;
     const int* column = graph_.column.data();
     for (int i = 0; i < nOwned_; ++i)
     {
@@ -105,14 +127,13 @@ void FlowOperator::gradientT(const double* p, double* y) const
             const double v = p[column[k]];
             for (int c = 0; c < D; ++c) sum[c] += a[c]*v;
         }
-        for (int c = 0; c < D; ++c) y[i*B + c] = sum[c];
-        y[i*B + D] = 0;
+        for (int c = 0; c < D; ++c) y[std::size_t(i)*D + c] = sum[c];
     }
 }
 
-void FlowOperator::fluidRows(const double* x, const double* q, double* y) const
+void FlowOperator::fluidRows(const double* x, const double* q, double* y, const double* ofPressure) const
 {
-    if (s_.dim == 2) fluidRowsT<2>(x, q, y); else fluidRowsT<3>(x, q, y);
+    if (s_.dim == 2) fluidRowsT<2>(x, q, y, ofPressure); else fluidRowsT<3>(x, q, y, ofPressure);
 }
 
 void FlowOperator::divergence(const double* x, const double* q, double* y) const

@@ -15,11 +15,11 @@ public:
     :   graph_(graph), halo_(halo), s_(system), nOwned_(nOwned)
     {}
 
-    /// y (nOwned*(dim+1)) = fluid rows times (x, q).
-    void fluidRows(const double* x, const double* q, double* y) const;
+    /// y (nOwned*(dim+1)) = fluid rows times (x, q). ofPressure: what gradient() gave for the pressure of x, if that is at hand.
+    void fluidRows(const double* x, const double* q, double* y, const double* ofPressure = nullptr) const;
     /// y (nOwned) = continuity rows times (u of x, q of free solids); the pressure of x is not used.
     void divergence(const double* x, const double* q, double* y) const;
-    /// y (nOwned*(dim+1), velocity entries only) = momentum rows times the pressure p (nNodes).
+    /// y (nOwned*dim) = momentum rows on the graph times the pressure p (nNodes).
     void gradient(const double* p, double* y) const;
 
     /// r (nDof per solid) = rows of all solids times (x, q), without inertia. Collective: the same on every rank.
@@ -33,7 +33,10 @@ public:
     int blockSize() const { return s_.dim + 1; }
 
 private:
-    template<int D> void fluidRowsT(const double*, const double*, double*) const;
+    template<int D, bool withGradient> void graphRows(const double*, const double*, double*) const;
+    template<int D> void addGhosts(const double*, double*) const;
+    template<int D> void addSolids(const double*, double*) const;
+    template<int D> void fluidRowsT(const double*, const double*, double*, const double*) const;
     template<int D> void divergenceT(const double*, const double*, double*) const;
     template<int D> void gradientT(const double*, double*) const;
 

@@ -58,17 +58,11 @@ inline void loadMassFluxes(const DualCellTransport::ElementFluxes& fluxes, const
 {
     using Pairs = CornerPairs<D>;
     constexpr int N = D + 1;
-    double ag[N];
-    for (int a = 0; a < N; ++a)
-    {
-        ag[a] = 0;
-        for (int d = 0; d < D; ++d) ag[a] += data.advection[d]*data.gradN[a*D + d];
-        data.massFlux[a*(N + 1)] = 0;
-    }
+    for (int a = 0; a < N; ++a) data.massFlux[a*(N + 1)] = 0;
     for (int p = 0; p < Pairs::count; ++p)
     {
         const int a = Pairs::first[p], b = Pairs::second[p];
-        const double atEnd = data.volume/N*(ag[b] - ag[a]);
+        const double atEnd = data.volume/N*(data.ag[b] - data.ag[a]);
         // fluxes may be as small as 1e-310: the quotient only where it is below 1
         const double liquid = std::abs(fluxes.liquid[p]), total = std::abs(fluxes.total[p]);
         const bool isForward = (fluxes.liquid[p] > 0) == (fluxes.total[p] > 0);
@@ -79,39 +73,35 @@ inline void loadMassFluxes(const DualCellTransport::ElementFluxes& fluxes, const
     }
 }
 
-/// False for an element without a fluid part.
+/// What the loaders hand from one to the next.
+struct ElementSource
+{
+    const CutElement* cut = nullptr;                        ///< null: not cut
+    DualCellTransport::ElementFluxes fluxes{};              ///< null where the density does not vary
+    double rhoOld = 0, rhoOlder = 0;                        ///< means over the fluid part at t^n, t^(n-1) [kg/m^3]
+    TimeScheme time;                                        ///< first order where the density is steep
+};
+
+/// Fluid part, materials, what convects, tau, history and force: all that the momentum residual needs. False for an element without a fluid part.
 template<int D>
-inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& step, const FluidProperties& fluid,
-    const NumericsControls& controls, const NodalData& nodal, ElementData<D>& data)
+inline bool loadResidualData(int e, const SimplexMesh& mesh, const FlowStepData& step, const NodalData& nodal, ElementData<D>& data, ElementSource& source)
 {
     constexpr int N = D + 1;
-    const CutElement* cut = nullptr;
+    source = {};
+    const CutElement*& cut = source.cut;
     if (step.cover)
     {
         const ElementState state = step.cover->state[e];
         if (state == ElementState::Solid) return false;
         if (state == ElementState::Cut) cut = &step.cover->cuts[step.cover->cutIndex[e]];
     }
-    if (cut)
-    {
-        data.volume = cut->volume;
-        for (int a = 0; a < N; ++a) data.first[a] = cut->first[a];
-        for (int k = 0; k < N*N; ++k) data.second[k] = cut->second[k];
-    }
-    else
-    {
-        data.volume = mesh.volume[e];
-        const double first = data.volume/N, off = data.volume/(N*(N + 1));
-        for (int a = 0; a < N; ++a) data.first[a] = first;
-        for (int k = 0; k < N*N; ++k) data.second[k] = off;
-        for (int a = 0; a < N; ++a) data.second[a*(N + 1)] = 2*off;
-    }
+    data.volume = cut ? cut->volume : mesh.volume[e];
+    for (int a = 0; a < N; ++a) data.first[a] = cut ? cut->first[a] : data.volume/N;
     const int* nodes = &mesh.elements[std::size_t(e)*N];
     data.gradN = &mesh.gradN[std::size_t(e)*N*D];
     data.rho = data.mu = 0;
-    const DualCellTransport::ElementFluxes fluxes = step.transport && (!cut || isAtRest(step, *cut)) ? step.transport->fluxes(e) : DualCellTransport::ElementFluxes{};
-    data.isVarying = fluxes.total != nullptr;
-    double rho1 = 0, rho2 = 0;
+    if (step.transport && (!cut || isAtRest(step, *cut))) source.fluxes = step.transport->fluxes(e);
+    data.isVarying = source.fluxes.total != nullptr;
     for (int d = 0; d < D; ++d) data.advection[d] = 0;
     const double inverse = 1/data.volume;
     for (int a = 0; a < N; ++a)
@@ -119,8 +109,8 @@ inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& 
         const int i = nodes[a];
         const double w = data.first[a]*inverse;
         data.rho += w*nodal.rho[i];
-        rho1 += w*nodal.rhoOld[i];
-        rho2 += w*nodal.rhoOlder[i];
+        source.rhoOld += w*nodal.rhoOld[i];
+        source.rhoOlder += w*nodal.rhoOlder[i];
         data.mu += w*nodal.mu[i];
         for (int d = 0; d < D; ++d) data.advection[d] += w*nodal.advection[std::size_t(i)*D + d];
     }
@@ -132,38 +122,71 @@ inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& 
         const double share = convectingShare(step.time.dt, std::sqrt(square), h, nu);
         for (int d = 0; d < D; ++d) data.advection[d] += share*(*step.fineScale)[std::size_t(e)*D + d];
     }
-    TimeScheme t = step.time;
-    if (isSteep<D>(data, nodes, nodal, rho1, rho2)) t = TimeScheme::bdf(1, step.time.dt, 0);
-    data.c0 = t.c0;
-    data.inertia = 0.5*(t.c0*data.rho - t.c1*rho1 - t.c2*rho2);
-    double one[N], two[N];  // densities of the nodes' mass at t^n, t^(n-1)
-    for (int a = 0; a < N; ++a)
-    {
-        const double own = data.isVarying ? 1 - meanShare : 0;
-        const double now = own*nodal.rho[nodes[a]] + (1 - own)*data.rho;
-        one[a] = own*nodal.rhoOld[nodes[a]] + (1 - own)*rho1;
-        two[a] = own*nodal.rhoOlder[nodes[a]] + (1 - own)*rho2;
-        data.nodalInertia[a] = 0.5*(t.c0*now - t.c1*one[a] - t.c2*two[a]);
-        data.densityRate[a] = t.c0*now + t.c1*one[a] + t.c2*two[a];
-        data.forceShare[a] = now/data.rho - 1;
-    }
-    if (data.isVarying) loadMassFluxes<D>(fluxes, fluid, controls, data);
+    source.time = step.time;
+    if (isSteep<D>(data, nodes, nodal, source.rhoOld, source.rhoOlder)) source.time = TimeScheme::bdf(1, step.time.dt, 0);
+    data.c0 = source.time.c0;
     for (int a = 0; a < N; ++a)
         for (int d = 0; d < D; ++d)
         {
             const std::size_t k = std::size_t(nodes[a])*D + d;
-            const double now = t.c1*step.state->u[k], old = t.c2*step.state->uOld[k];
-            data.history[a*D + d] = -(now + old);
-            data.momentumHistory[a*D + d] = -(one[a]*now + two[a]*old);
+            data.history[a*D + d] = -(source.time.c1*step.state->u[k] + source.time.c2*step.state->uOld[k]);
         }
     double speed = 0;
     for (int d = 0; d < D; ++d) speed += data.advection[d]*data.advection[d];
-    speed = std::sqrt(speed);
-    data.tau = tauMomentum(step.time.dt, speed, h, nu);
-    data.tauCont = controls.tauContFactor*tauContinuity(controls.tauContWithTimeStep, data.rho, speed, h, nu, data.tau);
+    data.tau = tauMomentum(step.time.dt, std::sqrt(speed), h, nu);
     for (int d = 0; d < D; ++d)
         data.force[d] = step.elementForce ? (*step.elementForce)[std::size_t(e)*D + d] : 0;
     data.prepare();
+    return true;
+}
+
+template<int D>
+inline void loadSecondMoments(const CutElement* cut, ElementData<D>& data)
+{
+    constexpr int N = D + 1;
+    const double off = data.volume/(N*(N + 1));
+    for (int k = 0; k < N*N; ++k) data.second[k] = cut ? cut->second[k] : off;
+    for (int a = 0; a < N && !cut; ++a) data.second[a*(N + 1)] = 2*off;
+}
+
+/// Inertia and momentum history by BDF of the momentum, with the nodes' own densities where the density varies.
+template<int D>
+inline void loadInertia(const int* nodes, const FlowStepData& step, const NodalData& nodal, const ElementSource& source, ElementData<D>& data)
+{
+    const TimeScheme& t = source.time;
+    data.inertia = 0.5*(t.c0*data.rho - t.c1*source.rhoOld - t.c2*source.rhoOlder);
+    const double own = data.isVarying ? 1 - meanShare : 0;
+    for (int a = 0; a <= D; ++a)
+    {
+        const int i = nodes[a];
+        const double now = own*nodal.rho[i] + (1 - own)*data.rho;
+        const double old = own*nodal.rhoOld[i] + (1 - own)*source.rhoOld;
+        const double older = own*nodal.rhoOlder[i] + (1 - own)*source.rhoOlder;
+        data.nodalInertia[a] = 0.5*(t.c0*now - t.c1*old - t.c2*older);
+        data.densityRate[a] = t.c0*now + t.c1*old + t.c2*older;
+        data.forceShare[a] = now/data.rho - 1;
+        for (int d = 0; d < D; ++d)
+        {
+            const std::size_t k = std::size_t(i)*D + d;
+            data.momentumHistory[a*D + d] = -(old*(t.c1*step.state->u[k]) + older*(t.c2*step.state->uOld[k]));
+        }
+    }
+}
+
+/// All that the matrix needs. False for an element without a fluid part.
+template<int D>
+inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& step, const FluidProperties& fluid,
+    const NumericsControls& controls, const NodalData& nodal, ElementData<D>& data)
+{
+    ElementSource source;
+    if (!loadResidualData<D>(e, mesh, step, nodal, data, source)) return false;
+    loadSecondMoments<D>(source.cut, data);
+    loadInertia<D>(&mesh.elements[std::size_t(e)*(D + 1)], step, nodal, source, data);
+    if (data.isVarying) loadMassFluxes<D>(source.fluxes, fluid, controls, data);
+    double square = 0;
+    for (int d = 0; d < D; ++d) square += data.advection[d]*data.advection[d];
+    data.tauCont = controls.tauContFactor
+        *tauContinuity(controls.tauContWithTimeStep, data.rho, std::sqrt(square), mesh.h[e], data.mu/data.rho, data.tau);
     return true;
 }
 

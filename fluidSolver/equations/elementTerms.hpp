@@ -54,28 +54,6 @@ struct ElementData
     }
 };
 
-/// Element matrix: block (a,b) at [(a*N + b)*B*B], row-major; right-hand side B per node.
-template<int D>
-struct ElementMatrix
-{
-    static constexpr int N = D + 1, B = D + 1;
-    double block[N*N*B*B];
-    double rhs[N*B];
-};
-
-/// Inertia, skew-symmetric convection, its SUPG part: the same scalar on every velocity component.
-/// With a constant density the skew form is 1/2 sum_b (F_ab rho) u_b, F_ab the fluxes between dual cells. Where the density varies,
-/// the transport's own mass fluxes stand there: a uniform velocity then meets no force from density that moves along.
-template<int D>
-inline double scalarMomentum(const ElementData<D>& e, int a, int b)
-{
-    const double galerkin = e.isVarying
-        ? (a == b ? e.nodalInertia[a]*e.first[a] : 0) + 0.5*e.massFlux[a*(D + 1) + b]
-        : e.inertia*e.second[a*(D + 1) + b] + 0.5*e.rho*(e.ag[b]*e.first[a] - e.ag[a]*e.first[b]);
-    return galerkin
-         + e.tau*e.rho*e.ag[a]*(e.c0*e.first[b] + e.volume*e.ag[b]);
-}
-
 /// What a uniform steady velocity 1 leaves of inertia and convection in row a: 1/2 (drho/dt + div of the mass flux), integrated.
 template<int D>
 inline double massDefect(const ElementData<D>& e, int a)
@@ -86,49 +64,36 @@ inline double massDefect(const ElementData<D>& e, int a)
     return 0.5*(e.densityRate[a]*e.first[a] + outflow);
 }
 
-/// Adds every volume term of node pair (a,b) into its block.
+/// Integral of the nodal history over the fluid part: the same for every row.
 template<int D>
-inline void addPair(const ElementData<D>& e, int a, int b, double* m)
+inline void integrateHistory(const ElementData<D>& e, double* integral)
 {
-    constexpr int B = D + 1;
-    const double* ga = e.gradN + a*D;
-    const double* gb = e.gradN + b*D;
-    double gg = 0;
-    for (int d = 0; d < D; ++d) gg += ga[d]*gb[d];
-    const double viscous = e.mu*e.volume, gradDiv = e.tauCont*e.volume;
-    const double diagonal = scalarMomentum(e, a, b) + viscous*gg;
-    const double pspg = e.tau*(e.c0*e.first[b] + e.volume*e.ag[b]);
     for (int k = 0; k < D; ++k)
     {
-        for (int l = 0; l < D; ++l) m[k*B + l] = viscous*ga[l]*gb[k] + gradDiv*ga[k]*gb[l];
-        m[k*B + k] += diagonal;
-        m[k*B + D] = -ga[k]*e.first[b] + e.tau*e.ag[a]*e.volume*gb[k];  // pressure gradient, SUPG
-        m[D*B + k] = e.first[a]*gb[k] + ga[k]*pspg;                     // continuity, PSPG
+        integral[k] = 0;
+        for (int b = 0; b <= D; ++b) integral[k] += e.first[b]*e.history[b*D + k];
     }
-    if (e.isVarying)
-        for (int k = 0; k < D; ++k) m[k*B + D] += e.forceShare[a]*e.first[a]*gb[k];
-    m[D*B + D] = e.tau/e.rho*e.volume*gg;                               // PSPG
 }
 
-/// Right-hand side of node a: history and body force with their SUPG and PSPG parts.
+/// Adds to the right-hand side of node a: history (its integral: integrateHistory()) and body force with their SUPG and PSPG parts.
 template<int D>
-inline void addSource(const ElementData<D>& e, int a, double* rhs)
+inline void addSource(const ElementData<D>& e, int a, const double* history, double* rhs)
 {
     constexpr int N = D + 1;
     const double* ga = e.gradN + a*D;
+    const double supg = e.tau*e.ag[a];
+    const double forced = e.first[a] + supg*e.volume + (e.isVarying ? e.forceShare[a]*e.first[a] : 0);
+    double pspg = 0;
     for (int k = 0; k < D; ++k)
     {
-        double mass = 0, mean = 0;
-        for (int b = 0; b < N; ++b)
-        {
-            if (!e.isVarying) mass += e.second[a*N + b]*e.momentumHistory[b*D + k];
-            else if (a == b) mass += e.first[a]*e.momentumHistory[b*D + k];
-            mean += e.first[b]*e.history[b*D + k];
-        }
-        rhs[k] = mass + e.rho*e.tau*e.ag[a]*mean + (e.first[a] + e.tau*e.ag[a]*e.volume)*e.force[k];
-        if (e.isVarying) rhs[k] += e.forceShare[a]*e.first[a]*e.force[k];
-        rhs[D] = (k == 0 ? 0 : rhs[D]) + e.tau*ga[k]*(mean + e.volume*e.force[k]/e.rho);
+        double mass = 0;
+        if (e.isVarying) mass = e.first[a]*e.momentumHistory[a*D + k];
+        else
+            for (int b = 0; b < N; ++b) mass += e.second[a*N + b]*e.momentumHistory[b*D + k];
+        rhs[k] += mass + e.rho*supg*history[k] + forced*e.force[k];
+        pspg += ga[k]*(history[k] + e.volume*e.force[k]/e.rho);
     }
+    rhs[D] += e.tau*pspg;
 }
 
 } // namespace flotsam

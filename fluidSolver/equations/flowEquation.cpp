@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "equations/flowEquation.hpp"
 
+#include "equations/elementAssembly.hpp"
 #include "equations/elementLoader.hpp"
 #include "equations/materials.hpp"
 
@@ -51,8 +52,6 @@ void FlowEquation::assemble(const FlowStepData& step)
 {
     step_ = step;
     setMaterials();
-    system_.matrix.setZero();
-    std::fill(system_.schur.begin(), system_.schur.end(), 0.0);
     std::fill(system_.rhs.begin(), system_.rhs.end(), 0.0);
     std::fill(system_.pressureMass.begin(), system_.pressureMass.end(), 0.0);
     std::fill(system_.dualVolume.begin(), system_.dualVolume.end(), 0.0);
@@ -76,44 +75,45 @@ void FlowEquation::assemble(const FlowStepData& step)
     }
 }
 
+/// Zeroes row i of the matrix unless that has been done. Just before its first use: the row then comes into the cache once instead of twice.
+void FlowEquation::startRow(int i, std::vector<char>& isStarted)
+{
+    if (isStarted[i]) return;
+    isStarted[i] = 1;
+    system_.matrix.setZero(graph_.rowStart[i], graph_.rowStart[i + 1], mesh_.dim);
+    std::fill(system_.schur.begin() + graph_.rowStart[i], system_.schur.begin() + graph_.rowStart[i + 1], 0.0);
+}
+
 template<int D>
 void FlowEquation::assembleElements()
 {
     constexpr int N = D + 1, B = D + 1;
     ElementData<D> data;
-    double block[B*B], source[B];
     defect_.assign(mesh_.nOwned, 0.0);
     mass_.assign(mesh_.nOwned, 0.0);
     carriesMass_.assign(mesh_.nOwned, 0);
+    std::vector<char> isStarted(mesh_.nOwned, 0);
     for (int e = 0; e < mesh_.nInnerElements; ++e)
     {
         if (!loadElement<D>(e, data)) continue;
         const int* nodes = &mesh_.elements[std::size_t(e)*N];
-        const int* slot = &graph_.slot[std::size_t(e)*N*N];
-        const double schurFactor = data.volume*(data.tau/data.rho + 1/data.inertia);
+        double history[D];
+        integrateHistory(data, history);
         for (int a = 0; a < N; ++a)
         {
-            if (nodes[a] >= mesh_.nOwned) continue;
-            const double* ga = data.gradN + a*D;
-            for (int b = 0; b < N; ++b)
-            {
-                const double* gb = data.gradN + b*D;
-                addPair(data, a, b, block);
-                system_.matrix.add<D>(slot[a*N + b], block);
-                double gg = 0;
-                for (int d = 0; d < D; ++d) gg += ga[d]*gb[d];
-                system_.schur[slot[a*N + b]] += schurFactor*gg;
-            }
-            addSource(data, a, source);
-            double* rhs = &system_.rhs[std::size_t(nodes[a])*B];
-            for (int k = 0; k < B; ++k) rhs[k] += source[k];
-            system_.dualVolume[nodes[a]] += data.first[a];
-            defect_[nodes[a]] += massDefect(data, a);
-            mass_[nodes[a]] += (data.isVarying ? data.nodalInertia[a] : data.inertia)*data.first[a];
-            carriesMass_[nodes[a]] |= data.isVarying;
-            system_.pressureMass[nodes[a]] += data.first[a]/(data.mu + data.tauCont);
+            const int i = nodes[a];
+            if (i >= mesh_.nOwned) continue;
+            startRow(i, isStarted);
+            addSource(data, a, history, &system_.rhs[std::size_t(i)*B]);
+            system_.dualVolume[i] += data.first[a];
+            defect_[i] += massDefect(data, a);
+            mass_[i] += (data.isVarying ? data.nodalInertia[a] : data.inertia)*data.first[a];
+            carriesMass_[i] |= data.isVarying;
+            system_.pressureMass[i] += data.first[a]/(data.mu + data.tauCont);
         }
+        addElement(data, &graph_.slot[std::size_t(e)*N*N], system_);
     }
+    for (int i = 0; i < mesh_.nOwned; ++i) startRow(i, isStarted);
 }
 
 /// Takes from the rows of the nodes around varying densities what inertia and convection leave of a uniform velocity: the rest of
@@ -135,10 +135,11 @@ void FlowEquation::fineScaleT(const std::vector<double>& x, std::vector<double>&
 {
     constexpr int N = D + 1, B = D + 1;
     ElementData<D> data;
+    ElementSource source;
     for (int e = 0; e < mesh_.nElements; ++e)
     {
         double* r = &result[std::size_t(e)*D];
-        if (!loadElement<D>(e, data))
+        if (!loadResidualData<D>(e, mesh_, step_, nodal_, data, source))
         {
             std::fill(r, r + D, 0.0);
             continue;

@@ -52,6 +52,7 @@ public:
     const FlowSystem& system() const { return system_; }
 
 private:
+    void startRow(int i, std::vector<char>& isStarted);
     template<int D> void assembleElements();
     template<int D> void removeMassDefect();
     template<int D> void assembleWalls();

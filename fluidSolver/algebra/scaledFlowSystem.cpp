@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "algebra/scaledFlowSystem.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flotsam
+{
+
+namespace
+{
+
+template<int D>
+void invert(const double* a, double ghost, double* inverse)
+{
+    Eigen::Matrix<double, D, D, Eigen::RowMajor> m;
+    for (int r = 0; r < D; ++r)
+        for (int c = 0; c < D; ++c) m(r, c) = a[r*D + c] + (r == c ? ghost : 0);
+    Eigen::Map<Eigen::Matrix<double, D, D, Eigen::RowMajor>> result(inverse);
+    result = m.inverse();
+}
+
+} // namespace
+
+ScaledFlowSystem::ScaledFlowSystem(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo)
+:   mesh_(mesh), graph_(graph), halo_(halo), B_(mesh.dim + 1), pressure_(mesh, graph, halo), solids_(halo)
+{
+    const std::size_t n = mesh.nOwned;
+    scale_.resize(n*B_);
+    velocityInverse_.resize(n*mesh.dim*mesh.dim);
+    viscousPressure_.resize(n);
+    local_.resize(std::size_t(mesh.nNodes)*B_);
+    pressureLocal_.resize(mesh.nNodes);
+    pressureRows_.resize(n);
+    gradient_.resize(n*mesh.dim);
+}
+
+void ScaledFlowSystem::set(const FlowSystem& system)
+{
+    system_ = &system;
+    if (mesh_.dim == 2) setDiagonals<2>(); else setDiagonals<3>();
+    solids_.set(system);
+    q_.assign(system.solids.size()*system.nDof, 0.0);
+    qRows_ = qWork_ = q_;
+    fluidVolume_ = 0;
+    for (int i = 0; i < mesh_.nOwned && !system.hasPressureLevel; ++i)
+        if (system.isActive[i]) fluidVolume_ += system.dualVolume[i];
+    fluidVolume_ = halo_.sum(fluidVolume_);
+    for (int i = 0; i < mesh_.nOwned; ++i) pressureRows_[i] = scale_[std::size_t(i)*B_ + B_ - 1];
+    pressure_.update(system, pressureRows_);
+}
+
+template<int D>
+void ScaledFlowSystem::setDiagonals()
+{
+    std::vector<double> ghost(std::size_t(mesh_.nNodes), 0.0), ghostPressure(std::size_t(mesh_.nNodes), 0.0);
+    for (const GhostTerm& g : system_->ghosts)
+        for (int j = 0; j < D + 2; ++j)
+        {
+            ghost[g.node[j]] += g.velocityFactor*g.jumpVelocity[j]*g.jumpVelocity[j];
+            ghostPressure[g.node[j]] += g.pressureFactor*g.jumpPressure[j]*g.jumpPressure[j];
+        }
+    for (int i = 0; i < mesh_.nOwned; ++i)
+    {
+        double* inverse = &velocityInverse_[std::size_t(i)*D*D];
+        double* s = &scale_[std::size_t(i)*B_];
+        if (!system_->isActive[i])
+        {
+            std::fill(inverse, inverse + D*D, 0.0);
+            std::fill(s, s + B_, 1.0);
+            viscousPressure_[i] = 0;
+            continue;
+        }
+        const double* a = &system_->matrix.velocity[std::size_t(graph_.diagonal[i])*D*D];
+        double trace = 0;
+        for (int r = 0; r < D; ++r) trace += a[r*D + r] + ghost[i];
+        invert<D>(a, ghost[i], inverse);
+        std::fill(s, s + D, 1/std::sqrt(trace/D));
+        // PSPG and ghost terms act beside the viscous part and bound its inverse where the fluid part is a sliver
+        viscousPressure_[i] = 1/(system_->pressureMass[i] + system_->matrix.pressure[graph_.diagonal[i]] + ghostPressure[i]);
+        s[D] = 1/std::sqrt(schurDiagonal(*system_, graph_, i) + ghostPressure[i]);
+    }
+}
+
+/// Removes from the continuity rows what no velocity can balance when no pressure is prescribed (closed boxes).
+void ScaledFlowSystem::balanceContinuity(double* y) const
+{
+    if (system_->hasPressureLevel) return;
+    double sum = 0;
+    for (int i = 0; i < mesh_.nOwned; ++i)
+        if (system_->isActive[i]) sum += y[std::size_t(i)*B_ + B_ - 1];
+    sum = halo_.sum(sum);
+    for (int i = 0; i < mesh_.nOwned; ++i)
+        if (system_->isActive[i]) y[std::size_t(i)*B_ + B_ - 1] -= sum/fluidVolume_*system_->dualVolume[i];
+}
+
+void ScaledFlowSystem::removeMean(std::vector<double>& p) const
+{
+    if (system_->hasPressureLevel) return;
+    double sum = 0;
+    for (int i = 0; i < mesh_.nOwned; ++i)
+        if (system_->isActive[i]) sum += p[i]*system_->dualVolume[i];
+    sum = halo_.sum(sum);
+    for (int i = 0; i < mesh_.nOwned; ++i)
+        if (system_->isActive[i]) p[i] -= sum/fluidVolume_;
+}
+
+/// y = scaled rows of (local_, q_); ofPressure: see FlowOperator::fluidRows. The halo of local_ is updated here.
+void ScaledFlowSystem::finishProduct(const FlowOperator& op, double* y, const double* ofPressure)
+{
+    const std::size_t n = std::size_t(mesh_.nOwned)*B_;
+    halo_.update(local_.data(), B_);
+    op.fluidRows(local_.data(), solids_.isEmpty() ? nullptr : q_.data(), y, ofPressure);
+    op.project(y);
+    balanceContinuity(y);
+    for (std::size_t i = 0; i < n; ++i) y[i] *= scale_[i];
+    if (solids_.isEmpty()) return;
+    op.solidRows(local_.data(), q_.data(), qRows_.data());
+    solids_.addInertia(q_.data(), qRows_.data());
+    solids_.writeRows(qRows_, y + n);
+}
+
+void ScaledFlowSystem::multiply(const double* x, double* y)
+{
+    const std::size_t n = std::size_t(mesh_.nOwned)*B_;
+    for (std::size_t i = 0; i < n; ++i) local_[i] = x[i]*scale_[i];
+    solids_.readVelocity(x + n, q_);
+    finishProduct(product(), y, nullptr);
+}
+
+/// Velocity by its diagonal blocks, into local_.
+template<int D>
+void ScaledFlowSystem::startVelocity(const double* r)
+{
+    constexpr int B = D + 1;
+    for (int i = 0; i < mesh_.nOwned; ++i)
+    {
+        const double* m = &velocityInverse_[std::size_t(i)*D*D];
+        const double* ri = r + std::size_t(i)*B;
+        const double unscaled = 1/scale_[std::size_t(i)*B]; // one for the node's velocity
+        double* z = &local_[std::size_t(i)*B];
+        for (int a = 0; a < D; ++a)
+        {
+            double sum = 0;
+            for (int b = 0; b < D; ++b) sum += m[a*D + b]*ri[b];
+            z[a] = sum*unscaled;
+        }
+        z[D] = 0;
+    }
+}
+
+/// pressureLocal_ = S^-1 (r_p - D z_u), z_u in local_ and q_.
+void ScaledFlowSystem::solvePressure(const double* r)
+{
+    const FlowSystem& s = *system_;
+    product().divergence(local_.data(), solids_.isEmpty() ? nullptr : q_.data(), pressureRows_.data());
+    for (int i = 0; i < mesh_.nOwned; ++i)
+    {
+        const std::size_t k = std::size_t(i)*B_ + B_ - 1;
+        pressureRows_[i] = isFreePressure(s, i) ? r[k]/scale_[k] - pressureRows_[i] : 0;
+    }
+    pressure_.apply(pressureRows_.data(), pressureLocal_.data());
+    for (int i = 0; i < mesh_.nOwned; ++i)
+        pressureLocal_[i] = isFreePressure(s, i) ? pressureLocal_[i] + pressureRows_[i]*viscousPressure_[i] : 0;
+    removeMean(pressureLocal_);
+    halo_.update(pressureLocal_.data(), 1);
+}
+
+/// Takes the pressure's part from the velocity in local_ and sets the pressure beside it.
+template<int D>
+void ScaledFlowSystem::correctVelocity()
+{
+    constexpr int B = D + 1;
+    for (int i = 0; i < mesh_.nOwned; ++i)
+    {
+        const double* m = &velocityInverse_[std::size_t(i)*D*D];
+        const double* g = &gradient_[std::size_t(i)*D];
+        double* z = &local_[std::size_t(i)*B];
+        for (int a = 0; a < D; ++a)
+        {
+            double sum = 0;
+            for (int b = 0; b < D; ++b) sum += m[a*D + b]*g[b];
+            z[a] -= sum;
+        }
+        z[D] = pressureLocal_[i];
+    }
+}
+
+/// local_ (owned nodes), q_ = preconditioner times r, without the scaling of the columns; gradient_ is that of its pressure.
+void ScaledFlowSystem::preconditionUnscaled(const double* r)
+{
+    const FlowOperator op = product();
+    if (mesh_.dim == 2) startVelocity<2>(r); else startVelocity<3>(r);
+    op.project(local_.data());
+    halo_.update(local_.data(), B_);
+    if (!solids_.isEmpty())
+    {
+        solids_.readRows(r + std::size_t(mesh_.nOwned)*B_, qRows_);
+        solids_.solve(qRows_, q_);
+    }
+    solvePressure(r);
+    op.gradient(pressureLocal_.data(), gradient_.data());
+    if (mesh_.dim == 2) correctVelocity<2>(); else correctVelocity<3>();
+    op.project(local_.data());
+    if (solids_.isEmpty()) return;
+    op.solidRowsOfPressure(pressureLocal_.data(), qRows_.data());
+    solids_.solve(qRows_, qWork_);
+    for (std::size_t k = 0; k < q_.size(); ++k) q_[k] -= qWork_[k];
+}
+
+void ScaledFlowSystem::precondition(const double* r, double* z)
+{
+    const std::size_t n = std::size_t(mesh_.nOwned)*B_;
+    preconditionUnscaled(r);
+    for (std::size_t i = 0; i < n; ++i) z[i] = local_[i]/scale_[i];
+    solids_.writeVelocity(q_, z + n);
+}
+
+void ScaledFlowSystem::multiplyPreconditioned(const double* r, double* y)
+{
+    preconditionUnscaled(r);
+    finishProduct(product(), y, gradient_.data());
+}
+
+/// Source of the pressure jumps.
+void ScaledFlowSystem::addPressureSources(double* r) const
+{
+    for (const GhostTerm& g : system_->ghosts)
+        for (int j = 0; j < mesh_.dim + 2; ++j)
+            if (g.node[j] < mesh_.nOwned)
+                r[std::size_t(g.node[j])*B_ + B_ - 1] += g.pressureFactor*g.jumpPressure[j]*g.pressureSource;
+}
+
+double ScaledFlowSystem::residual(const std::vector<double>& x, const std::vector<double>& velocity, double* r)
+{
+    const std::size_t n = std::size_t(mesh_.nOwned)*B_;
+    const int nd = system_->nDof;
+    const FlowOperator op = product();
+    double* rows = local_.data(); // free here
+    op.fluidRows(x.data(), system_->solids.empty() ? nullptr : velocity.data(), rows);
+    std::copy(system_->rhs.begin(), system_->rhs.end(), r);
+    addPressureSources(r);
+    for (std::size_t i = 0; i < n; ++i) rows[i] = r[i] - rows[i];
+    op.project(r);
+    double square = 0;
+    for (std::size_t i = 0; i < n; ++i) square += r[i]*scale_[i]*r[i]*scale_[i];
+    op.project(rows);
+    balanceContinuity(rows);
+    for (std::size_t i = 0; i < n; ++i) r[i] = rows[i]*scale_[i];
+    if (!solids_.isEmpty())
+    {
+        op.solidRows(x.data(), velocity.data(), qRows_.data());
+        solids_.addInertia(velocity.data(), qRows_.data());
+        for (std::size_t f = 0; f < solids_.free().size(); ++f)
+            for (int d = 0; d < nd; ++d)
+            {
+                const int s = solids_.free()[f];
+                const double b = system_->solids[s].rhs[d];
+                qRows_[s*nd + d] = b - qRows_[s*nd + d];
+                if (halo_.rank() == 0) square += std::pow(b*solids_.scale(int(f), d), 2);
+            }
+        solids_.writeRows(qRows_, r + n);
+    }
+    return std::sqrt(halo_.sum(square));
+}
+
+void ScaledFlowSystem::addTo(std::vector<double>& x, std::vector<double>& q, const double* solution)
+{
+    const std::size_t n = std::size_t(mesh_.nOwned)*B_;
+    const int nd = system_->nDof;
+    for (std::size_t i = 0; i < n; ++i) x[i] += solution[i]*scale_[i];
+    solids_.readVelocity(solution + n, q_);
+    for (int s : solids_.free())
+        for (int d = 0; d < nd; ++d) q[s*nd + d] += q_[s*nd + d];
+    halo_.update(x.data(), B_);
+}
+
+} // namespace flotsam

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What GMRES sees: the product with a FlowSystem whose rows and columns are scaled by the diagonals, its block preconditioner (see
+/// flowLinearSolver.hpp) and both one after the other. Vectors: nOwned*(dim+1) fluid values, then (rank 0) the free solids' velocities.
+#pragma once
+
+#include "algebra/flowOperator.hpp"
+#include "algebra/pressureHierarchy.hpp"
+#include "algebra/solidUnknowns.hpp"
+
+namespace flotsam
+{
+
+class ScaledFlowSystem
+{
+public:
+    ScaledFlowSystem(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo);
+
+    /// Collective. Diagonal blocks of the system (kept by reference) and, when it pays, a new pressure hierarchy.
+    void set(const FlowSystem& system);
+
+    int nEntries() const { return mesh_.nOwned*B_ + solids_.nLocalEntries(); }
+    void multiply(const double* x, double* y);
+    void precondition(const double* r, double* z);
+    /// y = matrix times preconditioner times r.
+    void multiplyPreconditioned(const double* r, double* y);
+
+    /// Scaled residual r of (x: nNodes*(dim+1) with its halo up to date, q: nDof per solid); returns the norm of the scaled right-hand side.
+    double residual(const std::vector<double>& x, const std::vector<double>& q, double* r);
+    /// Adds a scaled solution to x and q; the halo of x is updated.
+    void addTo(std::vector<double>& x, std::vector<double>& q, const double* solution);
+
+    PressureHierarchy& pressure() { return pressure_; }
+
+private:
+    template<int D> void setDiagonals();
+    template<int D> void startVelocity(const double* r);
+    template<int D> void correctVelocity();
+    void solvePressure(const double* r);
+    void addPressureSources(double* r) const;
+    void preconditionUnscaled(const double* r);
+    void finishProduct(const FlowOperator& op, double* y, const double* ofPressure);
+    void balanceContinuity(double* y) const;
+    void removeMean(std::vector<double>& p) const;
+    FlowOperator product() const { return {graph_, halo_, *system_, mesh_.nOwned}; }
+
+    const SimplexMesh& mesh_;
+    const NodeGraph& graph_;
+    const Halo& halo_;
+    const int B_;
+    const FlowSystem* system_ = nullptr;
+    PressureHierarchy pressure_;
+    SolidUnknowns solids_;
+
+    double fluidVolume_ = 0;                // of all active nodes; only without a pressure level
+    std::vector<double> scale_;             // nOwned*B: 1/sqrt(diagonal)
+    std::vector<double> velocityInverse_;   // nOwned*dim*dim
+    std::vector<double> viscousPressure_;   // nOwned: inverse of the viscous part of the Schur complement, lumped
+    std::vector<double> local_;             // work: nNodes*B, unscaled
+    std::vector<double> pressureRows_, gradient_; // work: nOwned, nOwned*dim
+    std::vector<double> pressureLocal_;     // work: nNodes
+    std::vector<double> q_, qRows_, qWork_; // nDof per solid
+};
+
+} // namespace flotsam
