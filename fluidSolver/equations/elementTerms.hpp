@@ -8,7 +8,8 @@
 /// a = u + u', u' = -tau (residual)/rho of the last step: only the sum is free of divergence, and momentum is conserved by what is
 /// (Hughes & Wells 2005, doi 10.1016/j.cma.2004.06.034).
 /// Where the density varies mass is lumped with the nodes' own densities, and the force grad p - f of an element goes to its nodes in proportion
-/// to these: one acceleration for all of them, as the pressure's gradient is one.
+/// to these: one acceleration for all of them, as the pressure's gradient is one. SUPG, which moves momentum between the nodes, has the
+/// density of the lightest: with the mean's it would move a gas node beside water a thousand times as much as the residual asks for.
 /// P1: gradients are constant; all integrals are exact from V, int N_a and int N_a N_b of the fluid part.
 #pragma once
 
@@ -34,7 +35,8 @@ struct ElementData
     double inertia;                     ///< [kg/(m^3 s)]
     bool isVarying;                     ///< density varies: the mass matrix is lumped and the transport's mass fluxes convect
     double nodalInertia[N];             ///< like inertia, of the nodes (varying)
-    double massFlux[N*N];               ///< between the nodes' dual cells, a to b [kg/s] (varying)
+    double convection[N*N];             ///< of row a by node b: half the mass flux from a to b, see loadConvection() [kg/s] (varying)
+    double streamlineDensity;           ///< of the SUPG terms [kg/m^3]
     double forceShare[N];               ///< density of the node over the mean, - 1: see above (varying)
     double densityRate[N];              ///< drho/dt at the nodes (their mean if not varying) [kg/(m^3 s)]
     double tau, tauCont;                ///< [s], [Pa s]
@@ -70,10 +72,10 @@ template<int D>
 inline double scalarMomentum(const ElementData<D>& e, int a, int b)
 {
     const double galerkin = e.isVarying
-        ? (a == b ? e.nodalInertia[a]*e.first[a] : 0) + 0.5*e.massFlux[a*(D + 1) + b]
+        ? (a == b ? e.nodalInertia[a]*e.first[a] : 0) + e.convection[a*(D + 1) + b]
         : e.inertia*e.second[a*(D + 1) + b] + 0.5*e.rho*(e.ag[b]*e.first[a] - e.ag[a]*e.first[b]);
     return galerkin
-         + e.tau*e.rho*e.ag[a]*(e.c0*e.first[b] + e.volume*e.ag[b]);
+         + e.tau*e.streamlineDensity*e.ag[a]*(e.c0*e.first[b] + e.volume*e.ag[b]);
 }
 
 /// What a uniform steady velocity 1 leaves of inertia and convection in row a: 1/2 (drho/dt + div of the mass flux), integrated.
@@ -81,9 +83,9 @@ template<int D>
 inline double massDefect(const ElementData<D>& e, int a)
 {
     if (!e.isVarying) return 0.5*(e.densityRate[a]*e.first[a] - e.rho*e.ag[a]*e.volume);
-    double outflow = 0;
-    for (int b = 0; b <= D; ++b) outflow += e.massFlux[a*(D + 1) + b];
-    return 0.5*(e.densityRate[a]*e.first[a] + outflow);
+    double halfOutflow = 0;
+    for (int b = 0; b <= D; ++b) halfOutflow += e.convection[a*(D + 1) + b];
+    return 0.5*e.densityRate[a]*e.first[a] + halfOutflow;
 }
 
 /// Adds every volume term of node pair (a,b) into its block.
@@ -97,12 +99,13 @@ inline void addPair(const ElementData<D>& e, int a, int b, double* m)
     for (int d = 0; d < D; ++d) gg += ga[d]*gb[d];
     const double viscous = e.mu*e.volume, gradDiv = e.tauCont*e.volume;
     const double diagonal = scalarMomentum(e, a, b) + viscous*gg;
+    const double streamline = e.tau*e.streamlineDensity/e.rho*e.ag[a]*e.volume;
     const double pspg = e.tau*(e.c0*e.first[b] + e.volume*e.ag[b]);
     for (int k = 0; k < D; ++k)
     {
         for (int l = 0; l < D; ++l) m[k*B + l] = viscous*ga[l]*gb[k] + gradDiv*ga[k]*gb[l];
         m[k*B + k] += diagonal;
-        m[k*B + D] = -ga[k]*e.first[b] + e.tau*e.ag[a]*e.volume*gb[k];  // pressure gradient, SUPG
+        m[k*B + D] = -ga[k]*e.first[b] + streamline*gb[k];  // pressure gradient, SUPG
         m[D*B + k] = e.first[a]*gb[k] + ga[k]*pspg;                     // continuity, PSPG
     }
     if (e.isVarying)
@@ -116,6 +119,7 @@ inline void addSource(const ElementData<D>& e, int a, double* rhs)
 {
     constexpr int N = D + 1;
     const double* ga = e.gradN + a*D;
+    const double streamline = e.tau*e.streamlineDensity*e.ag[a];
     for (int k = 0; k < D; ++k)
     {
         double mass = 0, mean = 0;
@@ -125,7 +129,7 @@ inline void addSource(const ElementData<D>& e, int a, double* rhs)
             else if (a == b) mass += e.first[a]*e.momentumHistory[b*D + k];
             mean += e.first[b]*e.history[b*D + k];
         }
-        rhs[k] = mass + e.rho*e.tau*e.ag[a]*mean + (e.first[a] + e.tau*e.ag[a]*e.volume)*e.force[k];
+        rhs[k] = mass + streamline*(mean + e.volume*e.force[k]/e.rho) + e.first[a]*e.force[k];
         if (e.isVarying) rhs[k] += e.forceShare[a]*e.first[a]*e.force[k];
         rhs[D] = (k == 0 ? 0 : rhs[D]) + e.tau*ga[k]*(mean + e.volume*e.force[k]/e.rho);
     }
