@@ -112,7 +112,8 @@ inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& 
     const int* nodes = &mesh.elements[std::size_t(e)*N];
     data.gradN = &mesh.gradN[std::size_t(e)*N*D];
     data.rho = data.mu = 0;
-    const DualCellTransport::ElementFluxes fluxes = step.transport && (!cut || isAtRest(step, *cut)) ? step.transport->fluxes(e) : DualCellTransport::ElementFluxes{};
+    const bool isCarried = step.transport && (!cut || isAtRest(step, *cut));
+    const DualCellTransport::ElementFluxes fluxes = isCarried ? step.transport->fluxes(e) : DualCellTransport::ElementFluxes{};
     data.isVarying = fluxes.total != nullptr;
     double rho1 = 0, rho2 = 0;
     for (int d = 0; d < D; ++d) data.advection[d] = 0;
