@@ -15,8 +15,8 @@ struct NodeFactors
     static constexpr int N = D + 1;
     double grad[N*D], first[N];
     double pspg[N];         ///< tau (c0 int N_b + V a.grad N_b)
-    double supg[N];         ///< tau V a.grad N_a, and the node's extra share of the force (varying density)
-    double convection[N];   ///< rho a.grad N_a
+    double supg[N];         ///< tau V a.grad N_a (by the streamline density), and the node's extra share of the force (varying density)
+    double convection[N];   ///< rho a.grad N_a (streamline density)
 
     explicit NodeFactors(const ElementData<D>& e)
     {
@@ -25,8 +25,8 @@ struct NodeFactors
         {
             first[a] = e.first[a];
             pspg[a] = e.tau*(e.c0*e.first[a] + e.volume*e.ag[a]);
-            supg[a] = e.tau*e.ag[a]*e.volume + (e.isVarying ? e.forceShare[a]*e.first[a] : 0);
-            convection[a] = e.rho*e.ag[a];
+            supg[a] = e.tau*e.streamlineDensity/e.rho*e.ag[a]*e.volume + (e.isVarying ? e.forceShare[a]*e.first[a] : 0);
+            convection[a] = e.streamlineDensity*e.ag[a];
         }
     }
 };
@@ -38,7 +38,7 @@ template<int D>
 inline double scalarMomentum(const ElementData<D>& e, const NodeFactors<D>& f, int a, int b)
 {
     const double galerkin = e.isVarying
-        ? (a == b ? e.nodalInertia[a]*f.first[a] : 0) + 0.5*e.massFlux[a*(D + 1) + b]
+        ? (a == b ? e.nodalInertia[a]*f.first[a] : 0) + e.convection[a*(D + 1) + b]
         : e.inertia*e.second[a*(D + 1) + b] + 0.5*(f.convection[b]*f.first[a] - f.convection[a]*f.first[b]);
     return galerkin + f.convection[a]*f.pspg[b];
 }

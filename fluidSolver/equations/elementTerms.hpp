@@ -8,7 +8,8 @@
 /// a = u + u', u' = -tau (residual)/rho of the last step: only the sum is free of divergence, and momentum is conserved by what is
 /// (Hughes & Wells 2005, doi 10.1016/j.cma.2004.06.034).
 /// Where the density varies mass is lumped with the nodes' own densities, and the force grad p - f of an element goes to its nodes in proportion
-/// to these: one acceleration for all of them, as the pressure's gradient is one.
+/// to these: one acceleration for all of them, as the pressure's gradient is one. SUPG, which moves momentum between the nodes, has the
+/// density of the lightest: with the mean's it would move a gas node beside water a thousand times as much as the residual asks for.
 /// P1: gradients are constant; all integrals are exact from V, int N_a and int N_a N_b of the fluid part.
 #pragma once
 
@@ -34,7 +35,8 @@ struct ElementData
     double inertia;                     ///< [kg/(m^3 s)]
     bool isVarying;                     ///< density varies: the mass matrix is lumped and the transport's mass fluxes convect
     double nodalInertia[N];             ///< like inertia, of the nodes (varying)
-    double massFlux[N*N];               ///< between the nodes' dual cells, a to b [kg/s] (varying)
+    double convection[N*N];             ///< of row a by node b: half the mass flux from a to b, see loadConvection() [kg/s] (varying)
+    double streamlineDensity;           ///< of the SUPG terms [kg/m^3]
     double forceShare[N];               ///< density of the node over the mean, - 1: see above (varying)
     double densityRate[N];              ///< drho/dt at the nodes (their mean if not varying) [kg/(m^3 s)]
     double tau, tauCont;                ///< [s], [Pa s]
@@ -59,9 +61,9 @@ template<int D>
 inline double massDefect(const ElementData<D>& e, int a)
 {
     if (!e.isVarying) return 0.5*(e.densityRate[a]*e.first[a] - e.rho*e.ag[a]*e.volume);
-    double outflow = 0;
-    for (int b = 0; b <= D; ++b) outflow += e.massFlux[a*(D + 1) + b];
-    return 0.5*(e.densityRate[a]*e.first[a] + outflow);
+    double halfOutflow = 0;
+    for (int b = 0; b <= D; ++b) halfOutflow += e.convection[a*(D + 1) + b];
+    return 0.5*e.densityRate[a]*e.first[a] + halfOutflow;
 }
 
 /// Integral of the nodal history over the fluid part: the same for every row.
@@ -81,8 +83,8 @@ inline void addSource(const ElementData<D>& e, int a, const double* history, dou
 {
     constexpr int N = D + 1;
     const double* ga = e.gradN + a*D;
-    const double supg = e.tau*e.ag[a];
-    const double forced = e.first[a] + supg*e.volume + (e.isVarying ? e.forceShare[a]*e.first[a] : 0);
+    const double streamline = e.tau*e.streamlineDensity*e.ag[a];
+    const double forced = (e.isVarying ? 1 + e.forceShare[a] : 1)*e.first[a];
     double pspg = 0;
     for (int k = 0; k < D; ++k)
     {
@@ -90,8 +92,9 @@ inline void addSource(const ElementData<D>& e, int a, const double* history, dou
         if (e.isVarying) mass = e.first[a]*e.momentumHistory[a*D + k];
         else
             for (int b = 0; b < N; ++b) mass += e.second[a*N + b]*e.momentumHistory[b*D + k];
-        rhs[k] += mass + e.rho*supg*history[k] + forced*e.force[k];
-        pspg += ga[k]*(history[k] + e.volume*e.force[k]/e.rho);
+        const double residual = history[k] + e.volume*e.force[k]/e.rho;
+        rhs[k] += mass + streamline*residual + forced*e.force[k];
+        pspg += ga[k]*residual;
     }
     rhs[D] += e.tau*pspg;
 }

@@ -14,23 +14,71 @@ namespace
 
 constexpr double sameDensity = 1e-10; // relative spread of nodal densities that counts as constant
 
-/// g.x of the foot of a node on its plane; the foot stays within one element length of the plane's own point, beyond
+/// g.x of the foot of a point on the plane of node i. The node's own foot stays within one element length of the plane's own point, beyond
 /// which an inclined plane says nothing about the surface's height.
-double footPotential(const SimplexMesh& mesh, const double* g, const InterfacePlanes& planes, int i, double h)
+double footPotential(const SimplexMesh& mesh, const double* g, const InterfacePlanes& planes, int i, double h, const double* point)
 {
     const int dim = mesh.dim;
-    const double *c = planes.point(i), *n = planes.normal(i), d = planes.distance(i);
-    double t[3], length = 0;
+    const double *c = planes.point(i), *n = planes.normal(i), *x = &mesh.x[std::size_t(i)*dim], d = planes.distance(i);
+    double t[3], length = 0, along = 0;
     for (int k = 0; k < dim; ++k)
     {
-        t[k] = mesh.x[std::size_t(i)*dim + k] - d*n[k] - c[k];
+        t[k] = x[k] - d*n[k] - c[k];
         length += t[k]*t[k];
+        along += n[k]*(point[k] - x[k]);
     }
     length = std::sqrt(length);
     const double share = length > h ? h/length : 1;
     double result = 0;
-    for (int k = 0; k < dim; ++k) result += g[k]*(c[k] + share*t[k]);
+    for (int k = 0; k < dim; ++k) result += g[k]*(c[k] + share*t[k] + point[k] - x[k] - along*n[k]);
     return result;
+}
+
+/// Cosine of the largest angle between the planes of an element's nodes.
+double leastCosine(const InterfacePlanes& planes, const int* nodes, int dim)
+{
+    double least = 1;
+    for (int a = 1; a <= dim; ++a)
+        for (int b = 0; b < a; ++b)
+        {
+            double cosine = 0;
+            for (int k = 0; k < dim; ++k) cosine += planes.normal(nodes[a])[k]*planes.normal(nodes[b])[k];
+            least = std::min(least, cosine);
+        }
+    return least;
+}
+
+/// Mean of the feet of an element's centre on its nodes' planes, each by the cosine between the plane's normal and the density gradient.
+double facingPotential(const SimplexMesh& mesh, const double* g, const InterfacePlanes& planes, int e, const double* gradRho)
+{
+    const int dim = mesh.dim, n = dim + 1;
+    const int* nodes = &mesh.elements[std::size_t(e)*n];
+    double centre[3] = {}, facing = 0, sum = 0;
+    for (int a = 0; a < n; ++a)
+        for (int k = 0; k < dim; ++k) centre[k] += mesh.x[std::size_t(nodes[a])*dim + k]/n;
+    for (int a = 0; a < n; ++a)
+    {
+        double slope = 0;
+        for (int k = 0; k < dim; ++k) slope += gradRho[k]*planes.normal(nodes[a])[k];
+        if (slope <= 0) continue;
+        facing += slope;
+        sum += slope*footPotential(mesh, g, planes, nodes[a], mesh.h[e], centre);
+    }
+    if (facing > 0) return sum/facing;
+    for (int k = 0; k < dim; ++k) sum += g[k]*centre[k];
+    return sum;
+}
+
+/// g.x_G of an element: mean over its nodes' feet. In the middle of a sheet a few elements thick nodes have the planes of either side, and that of the
+/// other side says nothing about this one's height: the more the planes oppose each other, the more only those count that face as the density grows.
+double elementPotential(const SimplexMesh& mesh, const double* g, const InterfacePlanes& planes, int e, const double* gradRho)
+{
+    const int dim = mesh.dim, n = dim + 1;
+    const int* nodes = &mesh.elements[std::size_t(e)*n];
+    double mean = 0;
+    for (int a = 0; a < n; ++a) mean += footPotential(mesh, g, planes, nodes[a], mesh.h[e], &mesh.x[std::size_t(nodes[a])*dim])/n;
+    const double opposed = std::max(0.0, -leastCosine(planes, nodes, dim));
+    return opposed > 0 ? (1 - opposed)*mean + opposed*facingPotential(mesh, g, planes, e, gradRho) : mean;
 }
 
 } // namespace
@@ -66,8 +114,10 @@ void gravityForce(const SimplexMesh& mesh, const std::array<double, 3>& gravity,
             for (int d = 0; d < dim; ++d) f[d] = mean/n*g[d];
             continue;
         }
-        double foot = 0;
-        for (int a = 0; a < n; ++a) foot += footPotential(mesh, g, *planes, nodes[a], mesh.h[e])/n;
+        double gradRho[3] = {};
+        for (int a = 0; a < n; ++a)
+            for (int d = 0; d < dim; ++d) gradRho[d] += mesh.gradN[(std::size_t(e)*n + a)*dim + d]*rho[nodes[a]];
+        const double foot = elementPotential(mesh, g, *planes, e, gradRho);
         std::fill(f, f + dim, 0.0);
         for (int a = 0; a < n; ++a)
         {
