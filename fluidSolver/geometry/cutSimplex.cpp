@@ -160,6 +160,23 @@ SimplexCut<dim> cutSimplex(const double* distance, double volume, const double* 
     return cut;
 }
 
+/// In the unit simplex: shares and slopes are the same in all.
+template <int dim>
+FluidFraction fluidFraction(const double* distance)
+{
+    double vertices[(dim + 1) * dim] = {}, gradN[(dim + 1) * dim] = {}, square = 0, area = 0;
+    for (int d = 0; d < dim; ++d)
+    {
+        vertices[(d + 1) * dim + d] = gradN[(d + 1) * dim + d] = 1;
+        gradN[d] = -1;
+        square += (distance[d + 1] - distance[0]) * (distance[d + 1] - distance[0]);
+    }
+    const double volume = dim == 2 ? 1.0 / 2 : 1.0 / 6;
+    const SimplexCut<dim> cut = cutSimplex<dim>(distance, volume, vertices, gradN);
+    for (int f = 0; f < cut.nFacets; ++f) area += cut.facets[f].area;
+    return {cut.volume / volume, area / (volume * std::sqrt(square))};
+}
+
 template <int dim>
 EdgeCut<dim> cutSimplexAtEdge(const double* distances, int nFaces, double volume, const double* vertices, const double* gradN)
 {
@@ -168,6 +185,8 @@ EdgeCut<dim> cutSimplexAtEdge(const double* distances, int nFaces, double volume
 
 template SimplexCut<2> cutSimplex<2>(const double*, double, const double*, const double*);
 template SimplexCut<3> cutSimplex<3>(const double*, double, const double*, const double*);
+template FluidFraction fluidFraction<2>(const double*);
+template FluidFraction fluidFraction<3>(const double*);
 template EdgeCut<2> cutSimplexAtEdge<2>(const double*, int, double, const double*, const double*);
 template EdgeCut<3> cutSimplexAtEdge<3>(const double*, int, double, const double*, const double*);
 

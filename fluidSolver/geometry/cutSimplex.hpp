@@ -40,6 +40,11 @@ struct SimplexCut : SimplexMoments<dim>
 template <int dim>
 SimplexCut<dim> cutSimplex(const double* distance, double volume, const double* vertices, const double* gradN);
 
+/// Share of the simplex that is fluid (0..1), and its derivative to a distance added to all nodes [1/m].
+struct FluidFraction { double value, slope; };
+template <int dim>
+FluidFraction fluidFraction(const double* distance);
+
 template <int dim>
 struct EdgeCut : SimplexMoments<dim>
 {

@@ -172,8 +172,9 @@ TEST_CASE("states, cut indices and facets fit together")
                 const int nFaces = s.faceDistances({x[0], x[1], x[2]}, faces);
                 exact = std::min(exact, nFaces > 0 ? *std::max_element(faces, faces + nFaces) : s.distance({x[0], x[1], x[2]}));
             }
-            if (cover.distance[i] < farDistance) CHECK(cover.distance[i] == doctest::Approx(exact).epsilon(1e-12));
-            else CHECK(exact > 2 * 2.0 / (dim == 2 ? 40 : 16) * 0.7);
+            const double h = 2.0 / (dim == 2 ? 40 : 16);
+            if (cover.distance[i] < 2 * h) CHECK(cover.distance[i] == doctest::Approx(exact).epsilon(1e-12));
+            else CHECK(exact > 2 * h * 0.7);
         }
     }
 }

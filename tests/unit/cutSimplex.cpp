@@ -89,6 +89,7 @@ void checkParts(double scale)
             const SimplexCut<dim> fluid = simplex.cut(distance), solid = simplex.cut(reversed);
             const double v = simplex.volume;
             worst = std::max(worst, std::abs(fluid.volume + solid.volume - v) / v);
+            worst = std::max(worst, std::abs(fluidFraction<dim>(distance).value - fluid.volume / v));
             double areas[2] = {0, 0};
             for (int f = 0; f < fluid.nFacets; ++f) areas[0] += fluid.facets[f].area;
             for (int f = 0; f < solid.nFacets; ++f) areas[1] += solid.facets[f].area;
@@ -172,6 +173,26 @@ TEST_CASE("two fluid nodes: the facet is a rectangle with exact quadrature of de
         }
     CHECK(area == doctest::Approx(s * (1 - s)).epsilon(1e-14));
     CHECK(integral == doctest::Approx(s * s / 2 * (1 - s) * (1 - s) / 2 + (1 - s) * s * s * s / 3).epsilon(1e-13));
+}
+
+TEST_CASE_TEMPLATE("slope of the fluid share is the facet's area over |grad distance|", Dim, std::integral_constant<int, 2>,
+                   std::integral_constant<int, 3>)
+{
+    constexpr int dim = Dim::value;
+    std::mt19937 generator(3);
+    for (int pattern = 1; pattern < (1 << (dim + 1)) - 1; ++pattern)
+    {
+        const Simplex<dim> simplex = randomSimplex<dim>(generator);
+        double distance[dim + 1], gradient[dim] = {}, area = 0, length = 0;
+        std::uniform_real_distribution<double> uniform(0.1, 1);
+        for (int a = 0; a <= dim; ++a) distance[a] = uniform(generator) * (pattern >> a & 1 ? 1 : -1);
+        for (int a = 0; a <= dim; ++a)
+            for (int d = 0; d < dim; ++d) gradient[d] += distance[a] * simplex.gradN[a * dim + d];
+        for (int d = 0; d < dim; ++d) length += gradient[d] * gradient[d];
+        const SimplexCut<dim> cut = simplex.cut(distance);
+        for (int f = 0; f < cut.nFacets; ++f) area += cut.facets[f].area;
+        CHECK(fluidFraction<dim>(distance).slope * simplex.volume == doctest::Approx(area / std::sqrt(length)).epsilon(1e-12));
+    }
 }
 
 TEST_CASE_TEMPLATE("divergence theorem on a cut corner", Dim, std::integral_constant<int, 2>,
