@@ -89,6 +89,7 @@ std::vector<double> Scene::save() const
         data.insert(data.end(), s.motion.velocity.data(), s.motion.velocity.data() + 3);
         data.insert(data.end(), s.motion.angularVelocity.data(), s.motion.angularVelocity.data() + 3);
         data.push_back(s.offset);
+        data.insert(data.end(), s.offsetSlope.data(), s.offsetSlope.data() + 3);
         data.push_back(double(s.kind));
     }
     return data;
@@ -96,7 +97,7 @@ std::vector<double> Scene::save() const
 
 void Scene::restore(const std::vector<double>& data)
 {
-    constexpr std::size_t width = 15;
+    constexpr std::size_t width = 18;
     if (data.size() != width*solids_.size())
         throw std::runtime_error("restart: the stored state has " + std::to_string(data.size()/width)
             + " solids, the case has " + std::to_string(solids_.size()) + "; restart with the constant/bodies of the first run");
@@ -108,7 +109,8 @@ void Scene::restore(const std::vector<double>& data)
         s.motion.velocity = Vec3(at[7], at[8], at[9]);
         s.motion.angularVelocity = Vec3(at[10], at[11], at[12]);
         s.offset = at[13];
-        s.kind = Solid::Kind(int(at[14]));
+        s.offsetSlope = Vec3(at[14], at[15], at[16]);
+        s.kind = Solid::Kind(int(at[17]));
         at += width;
     }
 }

@@ -13,7 +13,7 @@ namespace flotsam
 namespace
 {
 
-/// The facets of one solid in one cut element, integrated.
+/// The facets of one solid in one cut element that look the same way, integrated.
 template<int D>
 struct FacetGroup
 {
@@ -36,7 +36,7 @@ std::vector<FacetGroup<D>> groupFacets(const Cover& cover, int nInner, const std
         {
             const CutFacet& facet = cover.facets[f];
             std::size_t g = first;
-            while (g < groups.size() && groups[g].solid != facet.solid) ++g;
+            while (g < groups.size() && !(groups[g].solid == facet.solid && std::equal(facet.normal, facet.normal + D, groups[g].normal))) ++g;
             if (g == groups.size())
             {
                 groups.push_back({});

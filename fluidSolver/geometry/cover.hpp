@@ -43,7 +43,9 @@ constexpr double farDistance = 1e30;
 
 struct Cover
 {
-    std::vector<double> distance;       ///< nNodes: signed distance to the nearest solid [m], negative inside, never 0; farDistance far away
+    /// nNodes: signed distance to the nearest solid [m], negative inside, never 0; farDistance far away. Of a free solid with faces
+    /// (Solid::faceDistances) the largest of the distances from them.
+    std::vector<double> distance;
     std::vector<int> nearestSolid;      ///< nNodes: index of that solid, -1 far away
     std::vector<ElementState> state;    ///< nElements
     std::vector<int> cutIndex;          ///< nElements: position in `cuts`, -1 if not cut
@@ -59,7 +61,7 @@ struct Cover
 /// Cuts the mesh with the solids once, see CoverBuilder. Collective.
 Cover cutMesh(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const std::vector<Solid>& solids);
 
-/// CoverBuilder::buildExactVolume once: one Newton step on the offset of every free solid.
+/// CoverBuilder::buildExactVolume once: one Newton step on the offsets of every free solid.
 Cover cutMeshWithExactVolume(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, std::vector<Solid>& solids);
 
 } // namespace flotsam

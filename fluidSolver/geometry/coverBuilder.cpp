@@ -10,7 +10,7 @@ namespace
 {
 
 /// How far the distance has to be known around each node: an element that a solid touches has all its nodes within
-/// its longest edge, and a body's surface may still be moved by largestOffset. The owner's value everywhere, so that all
+/// its longest edge, and a body's surface may still be moved by twice largestOffset. The owner's value everywhere, so that all
 /// ranks evaluate the same nodes.
 std::vector<double> nodeReach(const SimplexMesh& mesh, const Halo& halo)
 {
@@ -28,7 +28,7 @@ std::vector<double> nodeReach(const SimplexMesh& mesh, const Halo& halo)
                     square += std::pow(mesh.x[n[a] * mesh.dim + d] - mesh.x[n[b] * mesh.dim + d], 2);
                 longest = std::max(longest, square);
             }
-        const double needed = std::sqrt(longest) + largestOffset * mesh.h[e];
+        const double needed = std::sqrt(longest) + 2 * largestOffset * mesh.h[e];
         for (int a = 0; a < nodesPerElement; ++a) reach[n[a]] = std::max(reach[n[a]], needed);
     }
     halo.update(reach, 1);
@@ -60,7 +60,8 @@ int cornerOf(const SimplexMesh& mesh, const InteriorFace& face, int side)
 CoverBuilder::CoverBuilder(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo)
     : mesh_(mesh), graph_(graph), halo_(halo), bins_(mesh, nodeReach(mesh, halo)), snap_(nodeSnap(mesh, halo)),
       elementFace_(std::size_t(mesh.nElements) * (mesh.dim + 1), -1), isBoundaryNode_(mesh.nNodes, 0),
-      elementMark_(mesh.nElements, 0), nodeMark_(mesh.nNodes, 0), aloneDistance_(mesh.nNodes, farDistance)
+      elementMark_(mesh.nElements, 0), nodeMark_(mesh.nNodes, 0), face_(mesh.nNodes, 0), aloneDistance_(mesh.nNodes, farDistance),
+      aloneFace_(mesh.nNodes, 0)
 {
     for (std::size_t f = 0; f < graph.faces.size(); ++f)
         for (int side = 0; side < 2; ++side)
@@ -100,18 +101,18 @@ void CoverBuilder::sample(const Solid& solid, std::vector<Sample>& samples) cons
     const auto [lower, upper] = solid.shape->bounds();
     const Shape& shape = *solid.shape;
     const Vec3 position = solid.pose.position;
-    const double outward = std::max(solid.offset, 0.0);
-    std::array<Vec3, 2> box = solid.spaceBounds();
-    box[0].array() -= outward - solid.offset;
-    box[1].array() += outward - solid.offset;
-    bins_.forEachNear(box, [&](int node, const Vec3& x)
+    const double outward = solid.offsetBound();
+    bins_.forEachNear(solid.spaceBounds(), [&](int node, const Vec3& x)
     {
         const Vec3 y = toBody * (x - position);
         const double outside = (lower - y).cwiseMax(y - upper).cwiseMax(0.0).norm();
         const double limit = bins_.reach(node) + outward;
         if (outside > limit) return;
-        const double d = shape.distance(y);
-        if (d <= limit) samples.push_back({node, d});
+        double faces[maxFaces];
+        const int nFaces = solid.kind == Solid::Kind::Free ? shape.faceDistances(y, faces) : 0;
+        const double* nearest = std::max_element(faces, faces + nFaces);
+        const double d = nFaces > 0 ? *nearest : shape.distance(y);
+        if (d <= limit) samples.push_back({node, static_cast<int>(nearest - faces), d});
     });
 }
 
@@ -122,17 +123,32 @@ void CoverBuilder::sampleMovingSolids(const std::vector<Solid>& solids)
         if (solids[s].kind != Solid::Kind::Fixed) sample(solids[s], samples_[s]);
 }
 
-void CoverBuilder::applySamples(Cover& cover, int solid, double offset, const std::vector<Sample>& samples) const
+double CoverBuilder::cutDistance(const Solid& solid, const Sample& sample) const
+{
+    const auto x = mesh_.spacePoint(sample.node);
+    return snapped(sample.node, sample.distance - solid.offsetAt(Vec3(x[0], x[1], x[2])));
+}
+
+void CoverBuilder::applySamples(Cover& cover, const std::vector<Solid>& solids, int solid, const std::vector<Sample>& samples)
 {
     for (const Sample& s : samples)
     {
-        const double d = snapped(s.node, s.distance - offset);
+        const double d = cutDistance(solids[solid], s);
         if (d < cover.distance[s.node])
         {
             cover.distance[s.node] = d;
             cover.nearestSolid[s.node] = solid;
+            face_[s.node] = s.face;
         }
     }
+}
+
+bool CoverBuilder::isAtEdge(const std::vector<int>& face, int element) const
+{
+    const int* nodes = nodesOf(element);
+    for (int a = 1; a <= mesh_.dim; ++a)
+        if (face[nodes[a]] != face[nodes[0]]) return true;
+    return false;
 }
 
 bool CoverBuilder::firstVisit(std::vector<int>& mark, int i) const
@@ -142,15 +158,16 @@ bool CoverBuilder::firstVisit(std::vector<int>& mark, int i) const
     return true;
 }
 
-/// Elements that the samples may have changed: those with a node inside, and cut ones whose distances changed.
-void CoverBuilder::addElementsOf(const std::vector<Sample>& samples, double offset)
+/// Elements that the samples may have changed: those that the solid may cut, and cut ones whose distances changed.
+void CoverBuilder::addElementsOf(const Solid& solid, const std::vector<Sample>& samples)
 {
+    const auto add = [this](int element) { if (firstVisit(elementMark_, element)) touchedElements_.push_back(element); };
     for (const Sample& s : samples)
     {
         if (firstVisit(nodeMark_, s.node)) touchedNodes_.push_back(s.node);
-        if (snapped(s.node, s.distance - offset) > 0 && !isNearFixedCut_[s.node]) continue;
-        for (int k = graph_.nodeElementStart[s.node]; k < graph_.nodeElementStart[s.node + 1]; ++k)
-            if (firstVisit(elementMark_, graph_.nodeElement[k])) touchedElements_.push_back(graph_.nodeElement[k]);
+        if (!isNearFixedCut_[s.node]) forEachElementOf(s, cutDistance(solid, s), face_, add);
+        else
+            for (int k = graph_.nodeElementStart[s.node]; k < graph_.nodeElementStart[s.node + 1]; ++k) add(graph_.nodeElement[k]);
     }
 }
 
@@ -191,8 +208,8 @@ void CoverBuilder::cutFixedSolids(const std::vector<Solid>& solids)
         if (solids[s].kind != Solid::Kind::Fixed) continue;
         std::vector<Sample> samples;
         sample(solids[s], samples);
-        applySamples(c, static_cast<int>(s), solids[s].offset, samples);
-        addElementsOf(samples, solids[s].offset);
+        applySamples(c, solids, static_cast<int>(s), samples);
+        addElementsOf(solids[s], samples);
     }
     std::sort(touchedElements_.begin(), touchedElements_.end());
     fixedTotals_.assign(2 * solids.size() + 1, 0);
@@ -219,6 +236,7 @@ void CoverBuilder::restoreFixedCover()
     {
         cover_.distance[i] = fixedCover_.distance[i];
         cover_.nearestSolid[i] = fixedCover_.nearestSolid[i];
+        face_[i] = 0; // fixed solids are cut without edges
     }
     for (int e : touchedElements_)
     {
@@ -236,8 +254,8 @@ const Cover& CoverBuilder::cutMovingSolids(const std::vector<Solid>& solids)
     for (std::size_t s = 0; s < solids.size(); ++s)
         if (solids[s].kind != Solid::Kind::Fixed)
         {
-            applySamples(cover_, static_cast<int>(s), solids[s].offset, samples_[s]);
-            addElementsOf(samples_[s], solids[s].offset);
+            applySamples(cover_, solids, static_cast<int>(s), samples_[s]);
+            addElementsOf(solids[s], samples_[s]);
         }
     copyFixedCuts();
     std::vector<double> totals = fixedTotals_;

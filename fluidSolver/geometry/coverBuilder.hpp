@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Largest Solid::offset that buildExactVolume sets, over the element length.
-constexpr double largestOffset = 0.2;
-
 /// Cuts one mesh again and again as solids move. What does not move is cut once; a step costs what is near the
 /// moving solids, not mesh size times solids.
 #pragma once
 
 #include "geometry/cover.hpp"
+#include "geometry/cutSimplex.hpp"
 #include "geometry/nodeBins.hpp"
 
 #include <cmath>
 
 namespace flotsam
 {
+
+/// Largest Solid::offset that buildExactVolume sets, over the element length; the share of Solid::offsetSlope comes on top, as large at most.
+constexpr double largestOffset = 0.2;
 
 class CoverBuilder
 {
@@ -25,9 +26,9 @@ public:
     /// `negligiblePart` are dropped. The result is valid until the next call; copy it to keep it. Collective.
     const Cover& build(const std::vector<Solid>& solids);
 
-    /// Before cutting, moves the surface of every free solid by one Newton step, starting from its current Solid::offset, so
-    /// that the volume it cuts out alone (without neighbours) becomes exactVolume(). At most largestOffset.
-    /// A free solid that reaches through the boundary of the mesh, or is not in it, keeps its offset. Fixed slip solids are moved once,
+    /// Before cutting, moves the surface of every free solid by one Newton step, starting from its current Solid::offset and offsetSlope,
+    /// so that the volume it cuts out alone (without neighbours) becomes exactVolume() and its centre the shape's. At most largestOffset.
+    /// A free solid that reaches through the boundary of the mesh, or is not in it, keeps its offsets. Fixed slip solids are moved once,
     /// to cut out the volume of their part inside the mesh. Collective.
     const Cover& buildExactVolume(std::vector<Solid>& solids);
 
@@ -35,14 +36,19 @@ public:
 
     /// 3D: the shape's volume [m^3]. 2D: its section with the mesh's plane [m^2]; if the shape is
     /// prismatic along the empty direction (within 1 %), exactly volume over extent. Kept per shape and direction.
-    double exactVolume(const Solid& solid);
+    double exactVolume(const Solid& solid) { return known(solid).volume; }
 
 private:
-    /// Distances of one moving solid at the nodes near it, without the solid's offset.
-    struct Sample { int node; double distance; };
+    /// Distance of one solid at a node near it, without the solid's offsets, and the position of the nearest of the shape's faces.
+    struct Sample { int node, face; double distance; };
 
-    /// Volume and surface that one solid alone cuts out, this rank's share.
-    struct OwnCut { double volume = 0, area = 0, areaTimesH = 0, reachesThrough = 0; };
+    /// What one solid alone cuts out: integrals of (1, r) over the volume and of their products over the surface, r from the origin.
+    struct OwnCut
+    {
+        Eigen::Vector4d volume = Eigen::Vector4d::Zero();
+        Eigen::Matrix4d surface = Eigen::Matrix4d::Zero();
+        double areaTimesH = 0, reachesThrough = 0;
+    };
 
     struct KnownVolume
     {
@@ -50,6 +56,8 @@ private:
         Vec3 direction;     // of the mesh plane's normal in the body frame
         double height;      // of the mesh plane over the body's origin
         double volume;
+        Vec3 centroid;      // in the body frame
+        bool hasCentroid;   // 2D: of a prismatic shape
     };
 
     static bool isSameFixed(const Solid& now, const Solid& then);
@@ -60,14 +68,26 @@ private:
     void correctOffsets(std::vector<Solid>& solids);
     void correctFixedOffsets(std::vector<Solid>& solids);
     double volumeInside(const Solid& solid, const std::vector<Sample>& samples);
+    const KnownVolume& known(const Solid& solid);
     OwnCut cutAlone(const Solid& solid, const std::vector<Sample>& samples);
+    template <int dim> void addAlone(OwnCut& own, const Solid& solid, int element) const;
+    void moveSurface(Solid& solid, const OwnCut& own);
     const Cover& cutMovingSolids(const std::vector<Solid>& solids);
 
-    void applySamples(Cover& cover, int solid, double offset, const std::vector<Sample>& samples) const;
+    void applySamples(Cover& cover, const std::vector<Solid>& solids, int solid, const std::vector<Sample>& samples);
+    double cutDistance(const Solid& solid, const Sample& sample) const;
+    template <class Visit> void forEachElementOf(const Sample& sample, double distance, const std::vector<int>& face, Visit visit) const;
+    bool isAtEdge(const std::vector<int>& face, int element) const;
     void restoreFixedCover();
-    void addElementsOf(const std::vector<Sample>& samples, double offset);
+    void addElementsOf(const Solid& solid, const std::vector<Sample>& samples);
     void cutElement(Cover& cover, const std::vector<Solid>& solids, int element) const;
+    bool isAtEdgeOfOne(const Cover& cover, int element) const;
     template <int dim> void cutElementOf(Cover& cover, const std::vector<Solid>& solids, int element, const double* distance) const;
+    template <int dim>
+    void storeCut(Cover& cover, const std::vector<Solid>& solids, int element, const SimplexMoments<dim>& cut,
+        const SimplexFacet<dim>* facets, int nFacets) const;
+    template <int dim> std::array<double, (dim + 1) * dim> verticesOf(int element) const;
+    template <int dim> EdgeCut<dim> cutAtEdge(const Solid& solid, int element) const;
     int solidAt(const Cover& cover, const std::vector<Solid>& solids, int element, const double* shape) const;
     void copyFixedCuts();
     void findGhostFaces(Cover& cover) const;
@@ -99,8 +119,20 @@ private:
     std::vector<int> touchedNodes_, touchedElements_;   // where cover_ may differ from fixedCover_
     mutable std::vector<int> elementMark_, nodeMark_;
     mutable int mark_ = 0;
+    std::vector<int> face_;             // nNodes: face of the nearest solid, of cover_
     std::vector<double> aloneDistance_; // nNodes, scratch
+    std::vector<int> aloneFace_;        // nNodes, scratch
     std::vector<KnownVolume> knownVolumes_;
 };
+
+/// Elements that a solid at `distance` from the node may cut: all of a node inside. Of a node outside those where an edge of the solid may pass
+/// between the nodes: then one of them is nearer than 3/4 of the longest edge.
+template <class Visit>
+void CoverBuilder::forEachElementOf(const Sample& sample, double distance, const std::vector<int>& face, Visit visit) const
+{
+    if (distance > 0.75 * bins_.reach(sample.node)) return;
+    for (int k = graph_.nodeElementStart[sample.node]; k < graph_.nodeElementStart[sample.node + 1]; ++k)
+        if (distance < 0 || isAtEdge(face, graph_.nodeElement[k])) visit(graph_.nodeElement[k]);
+}
 
 } // namespace flotsam

@@ -26,24 +26,83 @@ void CoverBuilder::cutElement(Cover& cover, const std::vector<Solid>& solids, in
         if (distance[a] < 0) ++nSolid;
     }
     cover.cutIndex[element] = -1;
-    if (nSolid == 0) cover.state[element] = ElementState::Fluid;
-    else if (nSolid == mesh_.dim + 1) cover.state[element] = ElementState::Solid;
+    if (nSolid == mesh_.dim + 1) cover.state[element] = ElementState::Solid;
+    else if (nSolid == 0 && !isAtEdgeOfOne(cover, element)) cover.state[element] = ElementState::Fluid;
     else if (mesh_.dim == 2) cutElementOf<2>(cover, solids, element, distance);
     else cutElementOf<3>(cover, solids, element, distance);
 }
 
+/// Between two solids the least of the distances is cut: linear.
+bool CoverBuilder::isAtEdgeOfOne(const Cover& cover, int element) const
+{
+    const int* nodes = nodesOf(element);
+    if (cover.nearestSolid[nodes[0]] < 0 || !isAtEdge(face_, element)) return false;
+    for (int a = 1; a <= mesh_.dim; ++a)
+        if (cover.nearestSolid[nodes[a]] != cover.nearestSolid[nodes[0]]) return false;
+    return true;
+}
+
+template <int dim>
+std::array<double, (dim + 1) * dim> CoverBuilder::verticesOf(int element) const
+{
+    std::array<double, (dim + 1) * dim> vertices;
+    for (int a = 0; a <= dim; ++a)
+        for (int d = 0; d < dim; ++d) vertices[a * dim + d] = mesh_.x[nodesOf(element)[a] * dim + d];
+    return vertices;
+}
+template std::array<double, 6> CoverBuilder::verticesOf<2>(int) const;
+template std::array<double, 12> CoverBuilder::verticesOf<3>(int) const;
+
+/// Cut by those of the solid's faces that do not have the whole element inside.
+template <int dim>
+EdgeCut<dim> CoverBuilder::cutAtEdge(const Solid& solid, int element) const
+{
+    double at[dim + 1][maxFaces], cutting[maxFaces * (dim + 1)];
+    int nFaces = 0, nCutting = 0;
+    for (int a = 0; a <= dim; ++a)
+    {
+        const auto x = mesh_.spacePoint(nodesOf(element)[a]);
+        nFaces = solid.faceDistances(Vec3(x[0], x[1], x[2]), at[a]);
+    }
+    for (int k = 0; k < nFaces; ++k)
+    {
+        double* values = cutting + nCutting * (dim + 1);
+        bool isInside = true;
+        for (int a = 0; a <= dim; ++a)
+        {
+            values[a] = snapped(nodesOf(element)[a], at[a][k]);
+            isInside = isInside && values[a] < 0;
+        }
+        if (!isInside) ++nCutting;
+    }
+    const auto vertices = verticesOf<dim>(element);
+    return cutSimplexAtEdge<dim>(cutting, nCutting, mesh_.volume[element], vertices.data(), &mesh_.gradN[std::size_t(element) * (dim + 1) * dim]);
+}
+template EdgeCut<2> CoverBuilder::cutAtEdge<2>(const Solid&, int) const;
+template EdgeCut<3> CoverBuilder::cutAtEdge<3>(const Solid&, int) const;
+
 template <int dim>
 void CoverBuilder::cutElementOf(Cover& cover, const std::vector<Solid>& solids, int element, const double* distance) const
 {
-    const double volume = mesh_.volume[element];
-    double vertices[(dim + 1) * dim];
-    for (int a = 0; a <= dim; ++a)
-        for (int d = 0; d < dim; ++d) vertices[a * dim + d] = mesh_.x[nodesOf(element)[a] * dim + d];
-    const SimplexCut<dim> cut =
-        cutSimplex<dim>(distance, volume, vertices, &mesh_.gradN[std::size_t(element) * (dim + 1) * dim]);
+    if (isAtEdgeOfOne(cover, element))
+    {
+        const EdgeCut<dim> cut = cutAtEdge<dim>(solids[cover.nearestSolid[nodesOf(element)[0]]], element);
+        if (cut.facets.empty() && *std::min_element(distance, distance + dim + 1) > 0) cover.state[element] = ElementState::Fluid;
+        else storeCut<dim>(cover, solids, element, cut, cut.facets.data(), static_cast<int>(cut.facets.size()));
+        return;
+    }
+    const SimplexCut<dim> cut = cutSimplex<dim>(distance, mesh_.volume[element], verticesOf<dim>(element).data(),
+        &mesh_.gradN[std::size_t(element) * (dim + 1) * dim]);
+    storeCut<dim>(cover, solids, element, cut, cut.facets, cut.nFacets);
+}
 
+template <int dim>
+void CoverBuilder::storeCut(Cover& cover, const std::vector<Solid>& solids, int element, const SimplexMoments<dim>& cut,
+    const SimplexFacet<dim>* facets, int nFacets) const
+{
+    const double volume = mesh_.volume[element];
     double area = 0;
-    for (int f = 0; f < cut.nFacets; ++f) area += cut.facets[f].area;
+    for (int f = 0; f < nFacets; ++f) area += facets[f].area;
     const double noArea = negligibleFacet * volume / mesh_.h[element];
     const bool isFluid = volume - cut.volume < negligiblePart * volume && area < noArea;
     const bool isSolid = cut.volume < negligiblePart * volume;
@@ -57,20 +116,20 @@ void CoverBuilder::cutElementOf(Cover& cover, const std::vector<Solid>& solids, 
     std::copy(cut.first, cut.first + dim + 1, c.first);
     std::copy(cut.second, cut.second + (dim + 1) * (dim + 1), c.second);
     c.facetStart = static_cast<int>(cover.facets.size());
-    for (int k = 0; k < cut.nFacets; ++k)
+    for (int k = 0; k < nFacets; ++k)
     {
         CutFacet& f = cover.facets.emplace_back();
         f.element = element;
-        f.area = cut.facets[k].area;
+        f.area = facets[k].area;
         f.nPoints = dim;
-        std::copy(cut.normal, cut.normal + dim, f.normal);
+        std::copy(facets[k].normal, facets[k].normal + dim, f.normal);
         double centroid[dim + 1] = {};
         for (int q = 0; q < dim; ++q)
         {
-            f.weight[q] = cut.facets[k].weight[q];
+            f.weight[q] = facets[k].weight[q];
             for (int a = 0; a <= dim; ++a)
             {
-                f.shape[q][a] = cut.facets[k].shape[q][a];
+                f.shape[q][a] = facets[k].shape[q][a];
                 centroid[a] += f.shape[q][a] / dim;
             }
         }

@@ -1,261 +1,193 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "geometry/cutSimplex.hpp"
+#include "geometry/simplexDivision.hpp"
 
-#include <cmath>
-#include <initializer_list>
+#include <algorithm>
 
 namespace flotsam
 {
 namespace
 {
 
-/// A number with its derivative to a distance added to all nodes.
-struct Dual
-{
-    double value, slope;
-};
-Dual operator+(Dual a, Dual b) { return {a.value + b.value, a.slope + b.slope}; }
-Dual operator*(Dual a, Dual b) { return {a.value * b.value, a.slope * b.value + a.value * b.slope}; }
+constexpr double justInside = -1e-300; // in place of zero: what is on a face is on the same side of it from both sides
 
-/// Nodes by sign.
+/// Follows the parts of one simplex through the faces of a body.
 template <int dim>
-struct Signs
+class EdgeCutter
 {
-    int fluid[dim + 1] = {}, solid[dim + 1] = {};
-    int nFluid = 0, nSolid = 0;
+public:
+    EdgeCutter(const double* distances, int nFaces, double volume, const double* vertices, const double* gradN)
+        : distances_(distances), nFaces_(nFaces), volume_(volume), vertices_(vertices), gradN_(gradN) {}
 
-    explicit Signs(const double* d)
+    EdgeCut<dim> cut()
     {
-        for (int a = 0; a <= dim; ++a)
-            if (d[a] > 0) fluid[nFluid++] = a;
-            else solid[nSolid++] = a;
+        SimplexPoint<dim> whole[dim + 1] = {};
+        for (int a = 0; a <= dim; ++a) whole[a].n[a] = 1;
+        cutPart(whole, volume_, 0);
+        return std::move(result_);
     }
-};
 
-/// The edge between a fluid and a solid node: share of it in the fluid, and the rest. Both are computed without
-/// cancellation, and the sub-simplices' volumes below are sums of products of them: slivers keep all digits.
-struct CutEdge
-{
-    Dual in, out;
-    int fluid, solid;   // nodes
-};
+private:
+    using Point = SimplexPoint<dim>;
 
-CutEdge cutEdge(const double* distance, int fluid, int solid)
-{
-    const double slope = 1 / (distance[fluid] - distance[solid]);
-    return {{distance[fluid] * slope, slope}, {-distance[solid] * slope, -slope}, fluid, solid};
-}
-
-template <int dim>
-struct Point { double n[dim + 1]; };    // shape functions
-
-template <int dim>
-Point<dim> nodePoint(int a)
-{
-    Point<dim> p{};
-    p.n[a] = 1;
-    return p;
-}
-
-template <int dim>
-Point<dim> edgePoint(const CutEdge& edge)
-{
-    Point<dim> p{};
-    p.n[edge.fluid] = edge.out.value;
-    p.n[edge.solid] = edge.in.value;
-    return p;
-}
-
-/// Adds the moments of a sub-simplex; exact: int N_a N_b = V/((d+1)(d+2)) (sum_i N_a(i) sum_j N_b(j) + sum_i N_a(i) N_b(i)).
-template <int dim>
-void addPiece(SimplexCut<dim>& cut, double pieceVolume, double elementVolume, std::initializer_list<const Point<dim>*> corners)
-{
-    if (pieceVolume < negligiblePart * elementVolume) return;
-    double sum[dim + 1] = {};
-    for (const Point<dim>* p : corners)
-        for (int a = 0; a <= dim; ++a) sum[a] += p->n[a];
-    const double w = pieceVolume / ((dim + 1) * (dim + 2));
-    for (int a = 0; a <= dim; ++a)
+    double valueAt(int face, const Point& p) const
     {
-        cut.first[a] += pieceVolume / (dim + 1) * sum[a];
-        for (int b = a; b <= dim; ++b)
+        double value = 0;
+        for (int a = 0; a <= dim; ++a) value += distances_[face * (dim + 1) + a] * p.n[a];
+        return value > 0 ? value : std::min(value, justInside);
+    }
+
+    template <int nCorners>
+    int valuesAt(int face, const Point* corners, double* values) const
+    {
+        int nPositive = 0;
+        for (int i = 0; i < nCorners; ++i)
         {
-            double s = sum[a] * sum[b];
-            for (const Point<dim>* p : corners) s += p->n[a] * p->n[b];
-            cut.second[a * (dim + 1) + b] += w * s;
+            values[i] = valueAt(face, corners[i]);
+            nPositive += values[i] > 0;
+        }
+        return nPositive;
+    }
+
+    static void toElement(const Point* corners, const Point* local, int n, Point* result)
+    {
+        for (int i = 0; i < n; ++i)
+            for (int a = 0; a <= dim; ++a)
+            {
+                result[i].n[a] = 0;
+                for (int j = 0; j <= dim; ++j) result[i].n[a] += local[i].n[j] * corners[j].n[a];
+            }
+    }
+
+    /// A part inside of all faces before `face`: what is outside of this one is fluid, the rest goes on.
+    void cutPart(const Point* corners, double partVolume, int face)
+    {
+        if (face == nFaces_) return;
+        double values[dim + 1];
+        const int nPositive = valuesAt<dim + 1>(face, corners, values);
+        if (nPositive == 0) return cutPart(corners, partVolume, face + 1);
+        if (nPositive == dim + 1) return addPart<dim>(result_, corners, partVolume, volume_);
+        const SimplexDivision<dim> outside = divideSimplex<dim>(values);
+        for (double& v : values) v = -v;
+        const SimplexDivision<dim> inside = divideSimplex<dim>(values);
+        Point part[dim + 1];
+        for (int k = 0; k < outside.nParts; ++k)
+        {
+            toElement(corners, outside.parts[k].corner, dim + 1, part);
+            addPart<dim>(result_, part, outside.parts[k].share * partVolume, volume_);
+        }
+        for (int k = 0; k < outside.nFacets; ++k)
+        {
+            toElement(corners, outside.facets[k].corner, dim, part);
+            cutFacet(part, face, face + 1);
+        }
+        for (int k = 0; k < inside.nParts; ++k)
+        {
+            if (inside.parts[k].share * partVolume < negligiblePart * volume_) continue;
+            toElement(corners, inside.parts[k].corner, dim + 1, part);
+            cutPart(part, inside.parts[k].share * partVolume, face + 1);
         }
     }
-    cut.volume += pieceVolume;
-}
 
-template <int dim>
-void toSpace(const Point<dim>& p, const double* vertices, double* x)
-{
-    for (int d = 0; d < dim; ++d)
+    /// A piece of face `own`, inside of all faces before `face`: keeps what is inside of this one.
+    void cutFacet(const Point* corners, int own, int face)
     {
-        x[d] = 0;
-        for (int a = 0; a <= dim; ++a) x[d] += p.n[a] * vertices[a * dim + d];
+        if (face == nFaces_) return addFacet(corners, own);
+        double values[dim];
+        const int nPositive = valuesAt<dim>(face, corners, values);
+        if (nPositive == dim) return;
+        if (nPositive == 0) return cutFacet(corners, own, face + 1);
+        Point inside[2][dim];
+        const int n = keepInside(corners, values, inside);
+        for (int k = 0; k < n; ++k) cutFacet(inside[k], own, face + 1);
     }
-}
 
-double facetArea(const double (&x)[2][2]) { return std::hypot(x[1][0] - x[0][0], x[1][1] - x[0][1]); }
-
-double facetArea(const double (&x)[3][3])
-{
-    double e[2][3];
-    for (int k = 0; k < 2; ++k)
-        for (int d = 0; d < 3; ++d) e[k][d] = x[k + 1][d] - x[0][d];
-    const double n[3] = {e[0][1] * e[1][2] - e[0][2] * e[1][1], e[0][2] * e[1][0] - e[0][0] * e[1][2],
-                         e[0][0] * e[1][1] - e[0][1] * e[1][0]};
-    return 0.5 * std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-}
-
-/// Facet with corners p[0..dim-1]; dim symmetric interior points: Gauss (edge) or degree 2 (triangle).
-template <int dim>
-void addFacet(SimplexCut<dim>& cut, double elementVolume, const double* vertices, std::initializer_list<const Point<dim>*> corners)
-{
-    const Point<dim>* const* p = corners.begin();
-    double x[dim][dim];
-    for (int i = 0; i < dim; ++i) toSpace<dim>(*p[i], vertices, x[i]);
-    const double area = facetArea(x);
-    const double size = dim == 3 ? std::cbrt(elementVolume * elementVolume) : std::sqrt(elementVolume);
-    if (area < negligiblePart * size) return;
-
-    const double own = dim == 2 ? 0.5 * (1 + 1 / std::sqrt(3.0)) : 2.0 / 3;
-    const double other = (1 - own) / (dim - 1);
-    SimplexFacet<dim>& f = cut.facets[cut.nFacets++];
-    f.area = area;
-    for (int q = 0; q < dim; ++q)
+    static Point between(const Point& a, double va, const Point& b, double vb)
     {
-        f.weight[q] = area / dim;
-        for (int a = 0; a <= dim; ++a)
-        {
-            f.shape[q][a] = 0;
-            for (int i = 0; i < dim; ++i) f.shape[q][a] += (i == q ? own : other) * p[i]->n[a];
-        }
+        Point p;
+        for (int k = 0; k <= dim; ++k) p.n[k] = (a.n[k] * vb - b.n[k] * va) / (vb - va);
+        return p;
     }
-}
 
-/// Volumes of the (at most three) sub-simplices of the fluid part over the element's.
-/// One fluid node: a corner simplex. All but one: the prism between the face of the fluid nodes and the facet.
-/// Two and two (3D): the prism between the triangles (fluid 0, cut 00, cut 01) and (fluid 1, cut 10, cut 11).
-struct CornerVolumes { Dual v[3]; int n; };
-
-template <int dim>
-CornerVolumes cornerVolumes(const CutEdge* e)
-{
-    if constexpr (dim == 2) return {{e[0].in * e[1].in}, 1};
-    else return {{e[0].in * e[1].in * e[2].in}, 1};
-}
-
-template <int dim>
-CornerVolumes truncatedVolumes(const CutEdge* e)
-{
-    if constexpr (dim == 2) return {{e[1].in, e[0].in * e[1].out}, 2};
-    else return {{e[2].in, e[1].in * e[2].out, e[0].in * e[1].out * e[2].out}, 3};
-}
-
-CornerVolumes wedgeVolumes(const CutEdge* e) // edges 00, 01, 10, 11
-{
-    return {{e[0].in * e[1].in * e[3].out, e[0].in * e[3].in * e[2].out, e[2].in * e[3].in}, 3};
-}
-
-/// All cut edges, fluid node major, and the volumes.
-template <int dim>
-struct Division
-{
-    Signs<dim> signs;
-    CutEdge edge[2 * (dim - 1)] = {};
-    CornerVolumes volumes;
-
-    explicit Division(const double* d) : signs(d)
+    /// Corners in cyclic order: a segment or a triangle without the part where the values are positive.
+    static int keepInside(const Point* corners, const double* values, Point (*result)[dim])
     {
+        Point kept[dim + 1];
         int n = 0;
-        for (int i = 0; i < signs.nFluid; ++i)
-            for (int j = 0; j < signs.nSolid; ++j) edge[n++] = cutEdge(d, signs.fluid[i], signs.solid[j]);
-        if (signs.nFluid == 1) volumes = cornerVolumes<dim>(edge);
-        else if (dim == 2 || signs.nSolid == 1) volumes = truncatedVolumes<dim>(edge);
-        else volumes = wedgeVolumes(edge);
+        for (int i = 0; i < dim; ++i)
+        {
+            const int next = (i + 1) % dim;
+            if (values[i] < 0) kept[n++] = corners[i];
+            if ((values[i] < 0) != (values[next] < 0) && (dim == 3 || next > i)) kept[n++] = between(corners[i], values[i], corners[next], values[next]);
+        }
+        for (int k = 0; k + dim <= n; ++k)
+        {
+            result[k][0] = kept[0];
+            for (int i = 1; i < dim; ++i) result[k][i] = kept[k + i];
+        }
+        return n - dim + 1;
     }
-};
 
-template <int dim>
-void setNormal(SimplexCut<dim>& cut, const double* distance, const double* gradN)
-{
-    double length = 0;
-    for (int d = 0; d < dim; ++d)
+    void addFacet(const Point* corners, int face)
     {
-        cut.normal[d] = 0;
-        for (int a = 0; a <= dim; ++a) cut.normal[d] -= distance[a] * gradN[a * dim + d];
-        length += cut.normal[d] * cut.normal[d];
+        SimplexFacet<dim> facet;
+        if (!setFacet<dim>(facet, corners, volume_, vertices_)) return;
+        setDescent<dim>(facet.normal, distances_ + face * (dim + 1), gradN_);
+        result_.facets.push_back(facet);
     }
-    length = std::sqrt(length);
-    for (int d = 0; d < dim; ++d) cut.normal[d] /= length;
-}
+
+    const double* distances_;
+    int nFaces_;
+    double volume_;
+    const double *vertices_, *gradN_;
+    EdgeCut<dim> result_{};
+};
 
 } // namespace
 
 template <int dim>
 SimplexCut<dim> cutSimplex(const double* distance, double volume, const double* vertices, const double* gradN)
 {
-    const Division<dim> division(distance);
-    const Signs<dim>& s = division.signs;
-    const Point<dim> p[2] = {nodePoint<dim>(s.fluid[0]), nodePoint<dim>(s.fluid[1])}; // [1] is used if there is one
-    Point<dim> c[2 * (dim - 1)];
-    for (int n = 0; n < s.nFluid * s.nSolid; ++n) c[n] = edgePoint<dim>(division.edge[n]);
-
+    const SimplexDivision<dim> division = divideSimplex<dim>(distance);
     SimplexCut<dim> cut{};
-    setNormal(cut, distance, gradN);
-    double v[3] = {};
-    for (int i = 0; i < division.volumes.n; ++i) v[i] = division.volumes.v[i].value * volume;
-
-    if constexpr (dim == 2)
+    for (int k = 0; k < division.nParts; ++k) addPart<dim>(cut, division.parts[k].corner, division.parts[k].share * volume, volume);
+    for (int k = 0; k < division.nFacets; ++k)
     {
-        if (s.nFluid == 1) addPiece<2>(cut, v[0], volume, {&p[0], &c[0], &c[1]});
-        else
-        {
-            addPiece<2>(cut, v[0], volume, {&p[0], &p[1], &c[1]});
-            addPiece<2>(cut, v[1], volume, {&p[0], &c[0], &c[1]});
-        }
-        addFacet<2>(cut, volume, vertices, {&c[0], &c[1]});
+        SimplexFacet<dim>& facet = cut.facets[cut.nFacets];
+        if (!setFacet<dim>(facet, division.facets[k].corner, volume, vertices)) continue;
+        setDescent<dim>(facet.normal, distance, gradN);
+        ++cut.nFacets;
     }
-    else if (s.nFluid == 2)
-    {
-        addPiece<3>(cut, v[0], volume, {&p[0], &c[0], &c[1], &c[3]});
-        addPiece<3>(cut, v[1], volume, {&p[0], &c[0], &c[2], &c[3]});
-        addPiece<3>(cut, v[2], volume, {&p[0], &p[1], &c[2], &c[3]});
-        addFacet<3>(cut, volume, vertices, {&c[0], &c[1], &c[3]});
-        addFacet<3>(cut, volume, vertices, {&c[0], &c[3], &c[2]});
-    }
-    else
-    {
-        if (s.nFluid == 1) addPiece<3>(cut, v[0], volume, {&p[0], &c[0], &c[1], &c[2]});
-        else
-        {
-            const Point<3> last = nodePoint<3>(s.fluid[2]);
-            addPiece<3>(cut, v[0], volume, {&p[0], &p[1], &last, &c[2]});
-            addPiece<3>(cut, v[1], volume, {&p[0], &p[1], &c[1], &c[2]});
-            addPiece<3>(cut, v[2], volume, {&p[0], &c[0], &c[1], &c[2]});
-        }
-        addFacet<3>(cut, volume, vertices, {&c[0], &c[1], &c[2]});
-    }
-    for (int a = 0; a <= dim; ++a)
-        for (int b = 0; b < a; ++b) cut.second[a * (dim + 1) + b] = cut.second[b * (dim + 1) + a];
     return cut;
 }
 
+/// In the unit simplex: shares and slopes are the same in all.
 template <int dim>
 FluidFraction fluidFraction(const double* distance)
 {
-    const Division<dim> division(distance);
-    Dual sum{0, 0};
-    for (int i = 0; i < division.volumes.n; ++i) sum = sum + division.volumes.v[i];
-    return {sum.value, sum.slope};
+    double vertices[(dim + 1) * dim] = {}, gradN[(dim + 1) * dim] = {}, square = 0, area = 0;
+    for (int d = 0; d < dim; ++d)
+    {
+        vertices[(d + 1) * dim + d] = gradN[(d + 1) * dim + d] = 1;
+        gradN[d] = -1;
+        square += (distance[d + 1] - distance[0]) * (distance[d + 1] - distance[0]);
+    }
+    const double volume = dim == 2 ? 1.0 / 2 : 1.0 / 6;
+    const SimplexCut<dim> cut = cutSimplex<dim>(distance, volume, vertices, gradN);
+    for (int f = 0; f < cut.nFacets; ++f) area += cut.facets[f].area;
+    return {cut.volume / volume, area / (volume * std::sqrt(square))};
+}
+
+template <int dim>
+EdgeCut<dim> cutSimplexAtEdge(const double* distances, int nFaces, double volume, const double* vertices, const double* gradN)
+{
+    return EdgeCutter<dim>(distances, nFaces, volume, vertices, gradN).cut();
 }
 
 template SimplexCut<2> cutSimplex<2>(const double*, double, const double*, const double*);
 template SimplexCut<3> cutSimplex<3>(const double*, double, const double*, const double*);
 template FluidFraction fluidFraction<2>(const double*);
 template FluidFraction fluidFraction<3>(const double*);
+template EdgeCut<2> cutSimplexAtEdge<2>(const double*, int, double, const double*, const double*);
+template EdgeCut<3> cutSimplexAtEdge<3>(const double*, int, double, const double*, const double*);
 
 } // namespace flotsam

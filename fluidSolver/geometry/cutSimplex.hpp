@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Cutting one simplex (triangle: dim 2, tetrahedron: dim 3) by the zero of a linear signed distance.
-/// The fluid is where the distance is positive. Pure kernel: no mesh, no solids, no allocation.
+/// Cutting one simplex (triangle: dim 2, tetrahedron: dim 3) by the zero of a linear signed distance, or by several at an edge or corner.
+/// The fluid is where a distance is positive. Pure kernel: no mesh, no solids.
 #pragma once
+
+#include <vector>
 
 namespace flotsam
 {
@@ -15,15 +17,20 @@ struct SimplexFacet
     double area;                    ///< [m^(dim-1)]
     double weight[dim];             ///< of the quadrature points (exact for degree 2), sum = area
     double shape[dim][dim + 1];     ///< shape functions of the simplex at the points
+    double normal[dim];             ///< unit, out of the fluid: -grad(distance)/|grad(distance)|
 };
 
 template <int dim>
-struct SimplexCut
+struct SimplexMoments
 {
     double volume;                              ///< of the fluid part [m^dim]
     double first[dim + 1];                      ///< int N_a over the fluid part
     double second[(dim + 1) * (dim + 1)];       ///< int N_a N_b over the fluid part
-    double normal[dim];                         ///< unit, out of the fluid: -grad(distance)/|grad(distance)|
+};
+
+template <int dim>
+struct SimplexCut : SimplexMoments<dim>
+{
     int nFacets;                                ///< 0 .. dim-1; 0 if the cut is of floating point size only
     SimplexFacet<dim> facets[dim - 1];
 };
@@ -37,5 +44,16 @@ SimplexCut<dim> cutSimplex(const double* distance, double volume, const double* 
 struct FluidFraction { double value, slope; };
 template <int dim>
 FluidFraction fluidFraction(const double* distance);
+
+template <int dim>
+struct EdgeCut : SimplexMoments<dim>
+{
+    std::vector<SimplexFacet<dim>> facets;
+};
+
+/// The solid is where all of several distances are negative: an edge or a corner between the faces of a body is not cut off, and may lie in
+/// a simplex with all its nodes outside. distances: nFaces*(dim+1) nodal values, none zero.
+template <int dim>
+EdgeCut<dim> cutSimplexAtEdge(const double* distances, int nFaces, double volume, const double* vertices, const double* gradN);
 
 } // namespace flotsam

@@ -137,7 +137,7 @@ void CoverBuilder::correctFixedOffsets(std::vector<Solid>& solids)
         for (const Moved& m : moved)
         {
             const OwnCut own = cutAlone(*m.solid, m.samples);
-            sums.insert(sums.end(), {own.volume, own.area, own.areaTimesH});
+            sums.insert(sums.end(), {own.volume[0], own.surface(0, 0), own.areaTimesH});
         }
         halo_.sum(sums.data(), static_cast<int>(sums.size()));
         for (std::size_t k = 0; k < moved.size(); ++k)

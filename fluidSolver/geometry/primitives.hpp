@@ -12,6 +12,7 @@ class BoxShape : public Shape
 public:
     BoxShape(const Vec3& centre, const Vec3& half) : centre_(centre), half_(half) {}
     double distance(const Vec3& x) const override;
+    int faceDistances(const Vec3& x, double* distances) const override;
     std::array<Vec3, 2> bounds() const override { return {Vec3(centre_ - half_), Vec3(centre_ + half_)}; }
     VolumeMoments moments() const override;
     TriSurface surface(double size) const override;
@@ -44,6 +45,7 @@ class CylinderShape : public Shape
 public:
     CylinderShape(const Vec3& end1, const Vec3& end2, double radius);
     double distance(const Vec3& x) const override;
+    int faceDistances(const Vec3& x, double* distances) const override;
     std::array<Vec3, 2> bounds() const override;
     VolumeMoments moments() const override;
     TriSurface surface(double size) const override;
@@ -80,11 +82,13 @@ class PlacedShape : public Shape
 {
 public:
     PlacedShape(std::shared_ptr<const Shape> shape, const Eigen::Quaterniond& rotation, const Vec3& translation);
-    double distance(const Vec3& x) const override { return shape_->distance(rotation_.transpose() * (x - translation_)); }
+    double distance(const Vec3& x) const override { return shape_->distance(toInner(x)); }
+    int faceDistances(const Vec3& x, double* distances) const override { return shape_->faceDistances(toInner(x), distances); }
     std::array<Vec3, 2> bounds() const override;
     VolumeMoments moments() const override;
     TriSurface surface(double size) const override;
     const Shape& inner() const { return *shape_; }
+    Vec3 toInner(const Vec3& x) const { return rotation_.transpose() * (x - translation_); }
     Vec3 toOuter(const Vec3& x) const { return rotation_ * x + translation_; }
 
 private:

@@ -30,6 +30,9 @@ struct TriSurface
     std::vector<std::array<int, 3>> triangles;
 };
 
+/// Of a box.
+constexpr int maxFaces = 6;
+
 /// A closed shape in its own frame. Immutable, safe to share.
 class Shape
 {
@@ -38,6 +41,10 @@ public:
 
     /// Signed distance [m], negative inside. Exact for the primitives; for unions the minimum.
     virtual double distance(const Vec3& x) const = 0;
+
+    /// Signed distances [m] from the smooth faces that bound the shape if it is what lies inside of all of them: their number, at most
+    /// maxFaces. 0 for other shapes.
+    virtual int faceDistances(const Vec3& /*x*/, double* /*distances*/) const { return 0; }
 
     /// Axis-aligned bounding box {lower, upper} in the shape's frame [m].
     virtual std::array<Vec3, 2> bounds() const = 0;

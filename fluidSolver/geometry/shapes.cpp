@@ -59,6 +59,16 @@ double BoxShape::distance(const Vec3& x) const
     return inside < 0 ? inside : q.cwiseMax(0.0).norm();
 }
 
+int BoxShape::faceDistances(const Vec3& x, double* distances) const
+{
+    for (int d = 0; d < 3; ++d)
+    {
+        distances[2 * d] = x[d] - centre_[d] - half_[d];
+        distances[2 * d + 1] = centre_[d] - x[d] - half_[d];
+    }
+    return 6;
+}
+
 VolumeMoments BoxShape::moments() const
 {
     VolumeMoments m;
@@ -112,6 +122,16 @@ double CylinderShape::distance(const Vec3& x) const
     const double qa = std::abs(along) - halfLength_, qr = (r - along * axis_).norm() - radius_;
     const double inside = std::max(qa, qr);
     return inside < 0 ? inside : std::hypot(std::max(qa, 0.0), std::max(qr, 0.0));
+}
+
+int CylinderShape::faceDistances(const Vec3& x, double* distances) const
+{
+    const Vec3 r = x - centre_;
+    const double along = axis_.dot(r);
+    distances[0] = (r - along * axis_).norm() - radius_;
+    distances[1] = along - halfLength_;
+    distances[2] = -along - halfLength_;
+    return 3;
 }
 
 std::array<Vec3, 2> CylinderShape::bounds() const

@@ -9,8 +9,14 @@ std::array<Vec3, 2> Solid::spaceBounds() const
     const auto [lower, upper] = shape->bounds();
     const Eigen::Matrix3d rotation = pose.orientation.toRotationMatrix();
     const Vec3 centre = pose.position + rotation * (0.5 * (lower + upper));
-    const Vec3 half = (rotation.cwiseAbs() * (0.5 * (upper - lower))).array() + offset;
+    const Vec3 half = (rotation.cwiseAbs() * (0.5 * (upper - lower))).array() + offsetBound();
     return {Vec3(centre - half), Vec3(centre + half)};
+}
+
+double Solid::radius() const
+{
+    const auto [lower, upper] = shape->bounds();
+    return lower.cwiseAbs().cwiseMax(upper.cwiseAbs()).norm();
 }
 
 } // namespace flotsam

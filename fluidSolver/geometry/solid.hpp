@@ -4,6 +4,8 @@
 
 #include "geometry/shape.hpp"
 
+#include <cmath>
+
 namespace flotsam
 {
 
@@ -32,12 +34,26 @@ struct Solid
     Pose pose;                          ///< at the time the cover was (or is to be) cut
     Motion motion;                      ///< at that time; free body: predicted, the solve corrects it
     double offset = 0;                  ///< surface moved outward by this so that the cut volume is the exact one [m]
+    Vec3 offsetSlope = Vec3::Zero();    ///< and by its product with the distance from the origin, in space: so that its centre is, too
 
     /// Signed distance of a point in space [m], negative inside.
     double distance(const Vec3& x) const
     {
-        return shape->distance(pose.orientation.conjugate() * (x - pose.position)) - offset;
+        return shape->distance(pose.orientation.conjugate() * (x - pose.position)) - offsetAt(x);
     }
+    /// Shape::faceDistances in space, of free bodies: structures may pass through the mesh's boundary, whose faces are cut linearly.
+    int faceDistances(const Vec3& x, double* distances) const
+    {
+        if (kind != Kind::Free) return 0;
+        const int n = shape->faceDistances(pose.orientation.conjugate() * (x - pose.position), distances);
+        for (int k = 0; k < n; ++k) distances[k] -= offsetAt(x);
+        return n;
+    }
+    double offsetAt(const Vec3& x) const { return offset + offsetSlope.dot(x - pose.position); }
+    /// Bound of |offsetAt| over the shape's bounding box [m].
+    double offsetBound() const { return std::abs(offset) + offsetSlope.norm() * radius(); }
+    /// Of a sphere about the origin that holds the shape's bounding box [m].
+    double radius() const;
     /// Velocity of the rigid motion at a point in space [m/s].
     Vec3 velocityAt(const Vec3& x) const { return motion.velocity + motion.angularVelocity.cross(x - pose.position); }
     /// Axis-aligned bounding box in space [m].

@@ -125,8 +125,8 @@ void checkPlaneCut(double s)
     CHECK(cut.first[1] == doctest::Approx(first).epsilon(1e-13));
     CHECK(cut.second[dim + 2] == doctest::Approx(second).epsilon(1e-13));
 
-    CHECK(cut.normal[0] == doctest::Approx(1));
     REQUIRE(cut.nFacets == 1);
+    CHECK(cut.facets[0].normal[0] == doctest::Approx(1));
     CHECK(cut.facets[0].area == doctest::Approx(dim == 2 ? r : r * r / 2).epsilon(1e-14));
     // degree 2 along the facet: int x_1^2 = r^3/3 (edge) or r^4/12 (triangle)
     double square = 0, weights = 0;
@@ -214,10 +214,57 @@ TEST_CASE_TEMPLATE("divergence theorem on a cut corner", Dim, std::integral_cons
                 {
                     double x = -simplex.vertices[corner * dim + d];
                     for (int a = 0; a <= dim; ++a) x += cut.facets[f].shape[q][a] * simplex.vertices[a * dim + d];
-                    flux += cut.facets[f].weight[q] * x * cut.normal[d];
+                    flux += cut.facets[f].weight[q] * x * cut.facets[f].normal[d];
                 }
         CHECK(flux == doctest::Approx(dim * cut.volume).epsilon(1e-12));
     }
+}
+
+TEST_CASE_TEMPLATE("two faces, one after the other or in the other order: the same parts; a face that holds all does not count", Dim,
+                   std::integral_constant<int, 2>, std::integral_constant<int, 3>)
+{
+    constexpr int dim = Dim::value;
+    std::mt19937 generator(5);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    for (int repeat = 0; repeat < 200; ++repeat)
+    {
+        const Simplex<dim> simplex = randomSimplex<dim>(generator);
+        double values[3 * (dim + 1)], swapped[3 * (dim + 1)];
+        for (int a = 0; a <= dim; ++a)
+        {
+            values[a] = swapped[2 * (dim + 1) + a] = uniform(generator);
+            values[dim + 1 + a] = swapped[a] = uniform(generator);
+            values[2 * (dim + 1) + a] = swapped[dim + 1 + a] = -1;
+        }
+        const EdgeCut<dim> one = cutSimplexAtEdge<dim>(values, 3, simplex.volume, simplex.vertices, simplex.gradN);
+        const EdgeCut<dim> other = cutSimplexAtEdge<dim>(swapped, 3, simplex.volume, simplex.vertices, simplex.gradN);
+        double worst = std::abs(one.volume - other.volume), areas = 0;
+        for (int m = 0; m < (dim + 1) * (dim + 1); ++m) worst = std::max(worst, std::abs(one.second[m] - other.second[m]));
+        CHECK(worst < 1e-13 * simplex.volume);
+        for (const auto& facet : one.facets) areas += facet.area;
+        for (const auto& facet : other.facets) areas -= facet.area;
+        CHECK(std::abs(areas) < 1e-12);
+    }
+}
+
+TEST_CASE("the corner of a box in an element with all nodes outside")
+{
+    // solid: x > 0.2, y > 0.3, z > 0.1 in the unit simplex, a corner of side 0.4
+    const Simplex<3> simplex = unitSimplex<3>();
+    const double values[12] = {0.2, -0.8, 0.2, 0.2, 0.3, 0.3, -0.7, 0.3, 0.1, 0.1, 0.1, -0.9};
+    const EdgeCut<3> cut = cutSimplexAtEdge<3>(values, 3, simplex.volume, simplex.vertices, simplex.gradN);
+    CHECK(simplex.volume - cut.volume == doctest::Approx(0.064 / 6).epsilon(1e-13));
+    Eigen::Vector3d areas = Eigen::Vector3d::Zero();
+    double first = 0;
+    for (const SimplexFacet<3>& facet : cut.facets)
+        for (int q = 0; q < 3; ++q)
+            for (int d = 0; d < 3; ++d)
+            {
+                areas[d] += facet.weight[q] * facet.normal[d];
+                if (d == 0) first += facet.weight[q] * facet.normal[0] * facet.shape[q][2];
+            }
+    for (int d = 0; d < 3; ++d) CHECK(areas[d] == doctest::Approx(0.08).epsilon(1e-13));
+    CHECK(first == doctest::Approx(0.08 * (0.3 + 0.4 / 3)).epsilon(1e-13));
 }
 
 TEST_CASE("parts of floating point size have no facet and no volume")

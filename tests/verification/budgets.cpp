@@ -214,7 +214,7 @@ TEST_CASE("closed box: momentum change is the impulse of weight, walls and conta
     {
         const Account a = fallingBar(true, 0.52, 2e-3, 400);
         print("bar falls into water, sinks and lands", a);
-        CHECK(a.defect() < 5e-3*a.weight);
+        CHECK(a.defect() < 7e-3*a.weight);
     }
 }
 
