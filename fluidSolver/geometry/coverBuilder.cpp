@@ -71,6 +71,17 @@ CoverBuilder::CoverBuilder(const SimplexMesh& mesh, const NodeGraph& graph, cons
         }
     for (const MeshPatch& patch : mesh.patches)
         for (int node : patch.faceNodes) isBoundaryNode_[node] = 1;
+    for (int d = 0; d < mesh.dim; ++d)
+    {
+        lower_[d] = upper_[d] = -1e300;
+        for (int i = 0; i < mesh.nNodes; ++i)
+        {
+            lower_[d] = std::max(lower_[d], -mesh.x[std::size_t(i) * mesh.dim + d]);
+            upper_[d] = std::max(upper_[d], mesh.x[std::size_t(i) * mesh.dim + d]);
+        }
+        lower_[d] = -halo.max(lower_[d]);
+        upper_[d] = halo.max(upper_[d]);
+    }
 }
 
 const Cover& CoverBuilder::build(const std::vector<Solid>& solids)
@@ -94,6 +105,16 @@ const Cover& CoverBuilder::buildExactVolume(std::vector<Solid>& solids)
 
 // --- distances
 
+/// The faces of the mesh's boundary are cut linearly: a structure that reaches through it is as well.
+bool CoverBuilder::isSharp(const Solid& solid) const
+{
+    if (solid.kind == Solid::Kind::Free) return true;
+    const auto [lower, upper] = solid.spaceBounds();
+    for (int d = 0; d < mesh_.dim; ++d)
+        if (!(lower[mesh_.axes[d]] > lower_[d] && upper[mesh_.axes[d]] < upper_[d])) return false;
+    return true;
+}
+
 void CoverBuilder::sample(const Solid& solid, std::vector<Sample>& samples) const
 {
     samples.clear();
@@ -102,6 +123,7 @@ void CoverBuilder::sample(const Solid& solid, std::vector<Sample>& samples) cons
     const Shape& shape = *solid.shape;
     const Vec3 position = solid.pose.position;
     const double outward = solid.offsetBound();
+    const bool sharp = isSharp(solid);
     bins_.forEachNear(solid.spaceBounds(), [&](int node, const Vec3& x)
     {
         const Vec3 y = toBody * (x - position);
@@ -109,7 +131,7 @@ void CoverBuilder::sample(const Solid& solid, std::vector<Sample>& samples) cons
         const double limit = bins_.reach(node) + outward;
         if (outside > limit) return;
         double faces[maxFaces];
-        const int nFaces = solid.kind == Solid::Kind::Free ? shape.faceDistances(y, faces) : 0;
+        const int nFaces = sharp ? shape.faceDistances(y, faces) : 0;
         const double* nearest = std::max_element(faces, faces + nFaces);
         const double d = nFaces > 0 ? *nearest : shape.distance(y);
         if (d <= limit) samples.push_back({node, static_cast<int>(nearest - faces), d});
@@ -202,6 +224,7 @@ void CoverBuilder::cutFixedSolids(const std::vector<Solid>& solids)
     touchedNodes_.clear();
     touchedElements_.clear();
     isNearFixedCut_.assign(mesh_.nNodes, 0);
+    face_.assign(mesh_.nNodes, 0);
     ++mark_;
     for (std::size_t s = 0; s < solids.size(); ++s)
     {
@@ -223,6 +246,7 @@ void CoverBuilder::cutFixedSolids(const std::vector<Solid>& solids)
         for (int a = 0; a <= mesh_.dim; ++a) isNearFixedCut_[nodesOf(cut.element)[a]] = 1;
     touchedNodes_.clear();
     touchedElements_.clear();
+    fixedFace_ = face_;
     fixedSolids_ = solids;
     hasFixedCover_ = true;
     cover_ = c;
@@ -236,7 +260,7 @@ void CoverBuilder::restoreFixedCover()
     {
         cover_.distance[i] = fixedCover_.distance[i];
         cover_.nearestSolid[i] = fixedCover_.nearestSolid[i];
-        face_[i] = 0; // fixed solids are cut without edges
+        face_[i] = fixedFace_[i];
     }
     for (int e : touchedElements_)
     {

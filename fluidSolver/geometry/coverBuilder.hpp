@@ -7,6 +7,7 @@
 #include "geometry/cutSimplex.hpp"
 #include "geometry/nodeBins.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace flotsam
@@ -60,6 +61,8 @@ private:
         bool hasCentroid;   // 2D: of a prismatic shape
     };
 
+    bool isSharp(const Solid& solid) const;
+    bool needsOffsets(const Solid& solid) const;
     static bool isSameFixed(const Solid& now, const Solid& then);
     bool sameFixedSolids(const std::vector<Solid>& solids) const;
     void cutFixedSolids(const std::vector<Solid>& solids);
@@ -107,10 +110,12 @@ private:
     std::vector<double> snap_;          // nNodes: distance that counts as solid [m]
     std::vector<int> elementFace_;      // nElements*(dim+1): position in graph.faces, -1 at the boundary
     std::vector<char> isBoundaryNode_;
+    std::array<double, 3> lower_{}, upper_{};   // of the whole mesh, in its plane
 
     bool hasFixedCover_ = false;
     std::vector<Solid> fixedSolids_;    // those (with gaps for the others) that fixedCover_ was cut with
     Cover fixedCover_;                  // the fixed solids alone
+    std::vector<int> fixedFace_;        // nNodes: face_ of fixedCover_
     std::vector<char> isNearFixedCut_;  // nNodes: node of an element that the fixed solids cut
     std::vector<double> fixedTotals_;   // volume, area per solid and shared elements of fixedCover_, this rank
 

@@ -15,13 +15,6 @@ namespace
 
 constexpr double touchTolerance = 0.02; // a body lying on a wall may overlap it by this, over the element length
 
-/// Free, and not cut exactly as it is: a shape with all faces plane is.
-bool needsOffsets(const Solid& solid)
-{
-    double distances[maxFaces];
-    return solid.kind == Solid::Kind::Free && solid.faceDistances(solid.pose.position, distances) < maxFaces;
-}
-
 struct Section { double area; bool isMean; };
 
 /// Volume of the shape in the plane's sense: see CoverBuilder::exactVolume.
@@ -42,6 +35,13 @@ Section planeSection(const Shape& shape, const Vec3& direction, double height)
 }
 
 } // namespace
+
+/// A shape with all faces plane is cut exactly as it is.
+bool CoverBuilder::needsOffsets(const Solid& solid) const
+{
+    double distances[maxFaces];
+    return !(isSharp(solid) && solid.faceDistances(solid.pose.position, distances) == maxFaces);
+}
 
 const CoverBuilder::KnownVolume& CoverBuilder::known(const Solid& solid)
 {
@@ -152,7 +152,7 @@ void CoverBuilder::correctOffsets(std::vector<Solid>& solids)
     std::vector<double> sums;
     for (std::size_t s = 0; s < solids.size(); ++s)
     {
-        if (!needsOffsets(solids[s])) continue;
+        if (solids[s].kind != Solid::Kind::Free || !needsOffsets(solids[s])) continue;
         const OwnCut own = cutAlone(solids[s], samples_[s]);
         sums.insert(sums.end(), own.volume.data(), own.volume.data() + 4);
         sums.insert(sums.end(), own.surface.data(), own.surface.data() + 16);
@@ -163,7 +163,7 @@ void CoverBuilder::correctOffsets(std::vector<Solid>& solids)
     const double* at = sums.data();
     for (Solid& solid : solids)
     {
-        if (!needsOffsets(solid)) continue;
+        if (solid.kind != Solid::Kind::Free || !needsOffsets(solid)) continue;
         moveSurface(solid, {Eigen::Vector4d(at), Eigen::Matrix4d(at + 4), at[20], at[21]});
         at += width;
     }

@@ -41,10 +41,9 @@ struct Solid
     {
         return shape->distance(pose.orientation.conjugate() * (x - pose.position)) - offsetAt(x);
     }
-    /// Shape::faceDistances in space, of free bodies: structures may pass through the mesh's boundary, whose faces are cut linearly.
+    /// Shape::faceDistances in space.
     int faceDistances(const Vec3& x, double* distances) const
     {
-        if (kind != Kind::Free) return 0;
         const int n = shape->faceDistances(pose.orientation.conjugate() * (x - pose.position), distances);
         for (int k = 0; k < n; ++k) distances[k] -= offsetAt(x);
         return n;

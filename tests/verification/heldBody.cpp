@@ -78,8 +78,7 @@ TEST_CASE("the stop carries the drag of the fixed bar")
 {
     const Vec3 position(0.7, 0.5, 0.5);
     Channel channel;
-    BodyDefinition bar = makeBar(590, position);
-    bar.shape = makeUnion({bar.shape}); // cut like a structure: with sharp edges the drag is 4.5 % higher at 4.8 elements a side
+    const BodyDefinition bar = makeBar(590, position);
     const DemSetup dem = makeDem(bar, position[0] + side/2 + 1e-9);
     CoupledStep held(channel.mesh, channel.halo, channel.fluid, channel.controls, channel.patches,
         Scene({}, {bar}, Vec3::Zero()), &dem, channel.timers);
@@ -88,8 +87,6 @@ TEST_CASE("the stop carries the drag of the fixed bar")
     Solid fixed;
     fixed.shape = bar.shape;
     fixed.pose.position = position;
-    fixed.offset = held.scene().solids()[0].offset; // the same cut
-    fixed.offsetSlope = held.scene().solids()[0].offsetSlope;
     CoupledStep still(channel.mesh, channel.halo, channel.fluid, channel.controls, channel.patches,
         Scene({{fixed, -1, {}}}, {}, Vec3::Zero()), nullptr, channel.timers);
     still.start(channel.rest(), true);
