@@ -155,7 +155,11 @@ void run(Foam::Time& runTime, const Foam::fvMesh& mesh, bool isDryRun)
         if (isStopping) runTime.writeAndEnd();
         else if (writeNow) runTime.writeNow();
         else runTime.write();
-        if (runTime.writeTime() || isStopping || writeNow) output.writeState(step, dt);
+        if (runTime.writeTime() || isStopping || writeNow)
+        {
+            output.writeState(step, dt);
+            step.fluid().forgetPreconditioner();
+        }
     }
     output.end(step);
 }

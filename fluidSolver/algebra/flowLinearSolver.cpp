@@ -134,6 +134,11 @@ FlowLinearSolver::FlowLinearSolver(const SimplexMesh& mesh, const NodeGraph& gra
 
 FlowLinearSolver::~FlowLinearSolver() = default;
 
+void FlowLinearSolver::forgetPreconditioner()
+{
+    impl_->system.pressure().forget();
+}
+
 void FlowLinearSolver::setSystem(const FlowSystem& system)
 {
     NoFloatingPointTraps guard;

@@ -38,6 +38,9 @@ public:
     /// that are not free are data). Repeated calls after a change of a solid's rhs need no new setSystem().
     SolveReport solve(std::vector<double>& x, std::vector<double>& q);
 
+    /// The next system gets a new preconditioner, whatever pays: what comes then depends on the state alone.
+    void forgetPreconditioner();
+
 private:
     struct Implementation;
     std::unique_ptr<Implementation> impl_;

@@ -33,6 +33,8 @@ public:
     /// A new step's system: builds the hierarchy when that pays. scale: nOwned, 1/sqrt(diagonal) of the pressure's rows.
     void update(const FlowSystem& system, const std::vector<double>& scale);
     bool isNew() const { return age_ == 0; }
+    /// The next step builds it anew.
+    void forget() { age_ = -1; }
 
     /// p (nOwned) = one V-cycle on r (nOwned).
     void apply(const double* r, double* p);

@@ -64,6 +64,8 @@ public:
     /// Liquid volume the transport keeps to (part of the state) [m^dim].
     double keptLiquid() const { return supg_ ? supg_->liquidVolume() : transport_.liquidVolume(); }
     void setKeptLiquid(double volume);
+    /// After the state has been written: a run that goes on from it starts with a new preconditioner, this one likewise, and both stay the same.
+    void forgetPreconditioner() { solver_.forgetPreconditioner(); }
     /// Ghost-penalty fluxes of the last accepted solve as {a, b, flux} triples (part of the state of a run with solids).
     std::vector<double> ghostFluxes() const;
     void setGhostFluxes(const std::vector<double>& triples);
