@@ -46,4 +46,5 @@ def forceOnPipes(case, h, setup, times):
     chosen = h.time > times[0]
     held = wallForce(h)[chosen].mean() if h.bodies else 0.0
     change = (momentum[-1] - momentum[0]) / (times[-1] - times[0])
-    return np.mean(up) - np.mean(down) + (mass.mean() + bars) * downSlope + held - change, np.mean(up)
+    trapezoids = np.convolve(np.diff(times), [0.5, 0.5]) / (times[-1] - times[0])
+    return (np.subtract(up, down) + mass * downSlope) @ trapezoids + bars * downSlope + held - change, trapezoids @ up
