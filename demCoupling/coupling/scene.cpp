@@ -98,6 +98,8 @@ std::vector<double> Scene::save() const
 void Scene::restore(const std::vector<double>& data)
 {
     constexpr std::size_t width = 18;
+    if (data.size() % width != 0)
+        throw std::runtime_error("restart: the stored state was written by another version of flotsamFoam; start the run anew");
     if (data.size() != width*solids_.size())
         throw std::runtime_error("restart: the stored state has " + std::to_string(data.size()/width)
             + " solids, the case has " + std::to_string(solids_.size()) + "; restart with the constant/bodies of the first run");

@@ -60,6 +60,7 @@ bool RunOutput::readState(CoupledStep& step)
     steps_ = firstStep_ = long(state.scalars["steps"]);
     redistributed_ = state.scalars["redistributed"];
     timeStep_ = state.scalars["timeStep"];
+    largestOverlap_ = state.scalars["largestOverlap"];
     forces_.restore(state.arrays["forces"]);
     step.restore(std::move(state.flow), state.arrays);
     Foam::Info<< "continuing the stored state of time " << runTime_.timeName() << Foam::endl;
@@ -134,7 +135,7 @@ void RunOutput::writeState(const CoupledStep& step, double timeStep)
     state.arrays = step.save();
     state.arrays["forces"] = forces_.values();
     state.scalars = {{"initialLiquid", mass_.initial}, {"inflow", mass_.inflow}, {"outflow", mass_.outflow},
-        {"steps", double(steps_)}, {"redistributed", redistributed_}, {"timeStep", timeStep}};
+        {"steps", double(steps_)}, {"redistributed", redistributed_}, {"timeStep", timeStep}, {"largestOverlap", largestOverlap_}};
     writeCheckpoint(stateFile(), state);
     if (!history_) return;
     history_->flush();

@@ -76,7 +76,8 @@ struct FlowLinearSolver::Implementation
     KSP krylov = nullptr;
     Vec rhs = nullptr, solution = nullptr;
     int nVector = -1;
-    bool isFirstSolve = true;           // of the step
+    bool isFirstSolve = true;           // of the system
+    bool isNewMatrix = true;            // of the system: FlowSystem::isNewMatrix
 
     Implementation(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& h, const NumericsControls& c)
     :   halo(h), controls(c), system(mesh, graph, h)
@@ -143,6 +144,7 @@ void FlowLinearSolver::setSystem(const FlowSystem& system)
 {
     NoFloatingPointTraps guard;
     impl_->isFirstSolve = true;
+    impl_->isNewMatrix = system.isNewMatrix;
     impl_->system.set(system);
     impl_->createKrylov();
 }
@@ -152,7 +154,7 @@ SolveReport FlowLinearSolver::solve(std::vector<double>& x, std::vector<double>&
     NoFloatingPointTraps guard;
     Implementation& me = *impl_;
     SolveReport report;
-    report.rebuiltPreconditioner = me.system.pressure().isNew();
+    report.rebuiltPreconditioner = me.isNewMatrix && me.system.pressure().isNew();
     double first = 0, norm = 0;
     me.setResidual(x, q, first, norm);
     if (!(norm < 1e300) || !(first < 1e300)) return report; // not a number: the caller repeats the step
@@ -180,7 +182,8 @@ SolveReport FlowLinearSolver::solve(std::vector<double>& x, std::vector<double>&
     report.iterations = int(iterations);
     report.final = norm > 0 ? final/norm : 0;
     report.hasConverged = reason > 0;
-    if (isFirst) me.system.pressure().countIterations(report.iterations);
+    // a solve that only follows a new contact impulse starts near its end: it says nothing about the hierarchy's age
+    if (isFirst && me.isNewMatrix) me.system.pressure().countIterations(report.iterations);
 
     const PetscScalar* d;
     check(VecGetArrayRead(me.solution, &d));

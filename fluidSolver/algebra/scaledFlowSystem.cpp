@@ -47,7 +47,7 @@ void ScaledFlowSystem::set(const FlowSystem& system)
         if (system.isActive[i]) fluidVolume_ += system.dualVolume[i];
     fluidVolume_ = halo_.sum(fluidVolume_);
     for (int i = 0; i < mesh_.nOwned; ++i) pressureRows_[i] = scale_[std::size_t(i)*B_ + B_ - 1];
-    pressure_.update(system, pressureRows_);
+    if (system.isNewMatrix) pressure_.update(system, pressureRows_);
 }
 
 template<int D>

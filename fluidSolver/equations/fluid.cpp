@@ -154,6 +154,7 @@ void Fluid::assemble()
     step.transport = fluid_.isTwoPhase && !supg_ ? &transport_ : nullptr;
     equation_.system().geometryChanged = geometryChanged_;
     equation_.assemble(step);
+    equation_.system().isNewMatrix = true;
     geometryChanged_ = false;
 
     // start: extrapolated velocity and pressure (10 to 20 % less time than with the last pressure)
@@ -177,7 +178,9 @@ SolveReport Fluid::solve(const std::vector<FreeBody>& bodies)
 {
     equation_.setFreeBodies(bodies, time_.dt);
     solver_.setSystem(equation_.system());
-    return solver_.solve(x_, q_);
+    const SolveReport report = solver_.solve(x_, q_);
+    equation_.system().isNewMatrix = false;
+    return report;
 }
 
 std::vector<Fluid::SolidLoad> Fluid::solidLoads() const
@@ -264,6 +267,7 @@ void Fluid::rejectStep()
     state_.alphaOld = before_.alphaOld;
     state_.alphaOlder = before_.alphaOlder;
     setKeptLiquid(liquidBefore_);
+    solver_.forgetPreconditioner(); // what failed may have been its
 }
 
 bool Fluid::isFinite() const

@@ -105,11 +105,15 @@ const Cover& CoverBuilder::buildExactVolume(std::vector<Solid>& solids)
 
 // --- distances
 
-/// The faces of the mesh's boundary are cut linearly: a structure that reaches through it is as well.
+/// The faces of the mesh's boundary are cut linearly: a structure that reaches through it is as well. A free body stays sharp on its way out:
+/// its cut, and with it its weight in the water, must not jump; only the fluid part of an open boundary's faces at its edges is then not exact.
 bool CoverBuilder::isSharp(const Solid& solid) const
 {
     if (solid.kind == Solid::Kind::Free) return true;
-    const auto [lower, upper] = solid.spaceBounds();
+    Solid plain = solid; // the answer decides about the offsets: it must not depend on them
+    plain.offset = 0;
+    plain.offsetSlope.setZero();
+    const auto [lower, upper] = plain.spaceBounds();
     for (int d = 0; d < mesh_.dim; ++d)
         if (!(lower[mesh_.axes[d]] > lower_[d] && upper[mesh_.axes[d]] < upper_[d])) return false;
     return true;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/stopSignal.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -32,12 +33,14 @@ extern "C" void onWrite(int)
 }
 
 /// Open MPI's mpirun that is to end a job sends its processes SIGCONT first, then SIGTERM, then SIGKILL, `odls_base_sigkill_timeout` seconds apart.
-/// Waiting for SIGTERM would lose the first of these spans. It reads their output no more: writing to it must not kill.
-extern "C" void onContinue(int number, siginfo_t* info, void*)
+/// It reads their output no more: writing to it must neither kill nor wait. A user who resumes mpirun sends SIGCONT, too: so the state is written, and the run goes on
+/// until SIGTERM.
+extern "C" void onContinue(int, siginfo_t* info, void*)
 {
     if (info->si_code != SI_USER || info->si_pid != getppid()) return;
-    stopSignal = number;
+    writeSignal = 1;
     std::signal(SIGPIPE, SIG_IGN);
+    for (const int output : {STDOUT_FILENO, STDERR_FILENO}) fcntl(output, F_SETFL, fcntl(output, F_GETFL) | O_NONBLOCK);
 }
 
 void install(int number, struct sigaction action)
