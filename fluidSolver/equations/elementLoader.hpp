@@ -50,7 +50,8 @@ inline bool isAtRest(const FlowStepData& step, const CutElement& cut)
 /// Convection by the transport's mass fluxes, moved from the middle of the step to its end, and from the resolved to the whole velocity, with
 /// the mean density. Half the flux is the skew-symmetric form, in which a node's own velocity does not appear: a gas node through which in one
 /// step more mass flows than its dual cell holds would be moved by a multiple of its neighbours' differences, in splashes to 100 m/s and more.
-/// What exceeds the smaller of the two nodes' masses is therefore taken upwind: a difference of velocities then moves neither by more than itself.
+/// What exceeds the smaller of the two nodes' masses, shared among the D pairs that a node has in an element, is therefore taken upwind: the differences
+/// of velocities around a node then do not move it by more than themselves. (All of the mass for each pair: in 3D spikes remain, and a dam break lost half its water.)
 template<int D>
 inline void loadConvection(const DualCellTransport::ElementFluxes& fluxes, const FluidProperties& fluid, const NumericsControls& controls,
     ElementData<D>& data)
@@ -67,7 +68,7 @@ inline void loadConvection(const DualCellTransport::ElementFluxes& fluxes, const
         const bool isForward = (fluxes.liquid[p] > 0) == (fluxes.total[p] > 0);
         const double alpha = !isForward || liquid == 0 ? 0 : liquid < total ? liquid/total : 1;
         const double flux = density(fluid, controls, alpha)*fluxes.total[p] + data.rho*(atEnd - fluxes.total[p]);
-        const double mass = std::min(data.nodalInertia[a]*data.first[a], data.nodalInertia[b]*data.first[b]);
+        const double mass = std::min(data.nodalInertia[a]*data.first[a], data.nodalInertia[b]*data.first[b])/D;
         const double upwind = std::max(0.0, 0.5*std::abs(flux) - mass);
         data.convection[a*N + b] = 0.5*flux - upwind;
         data.convection[b*N + a] = -0.5*flux - upwind;
