@@ -168,24 +168,33 @@ bool canLandOn(const BodyDefinition& body, int axis)
     return !body.isPlanar || std::abs((body.pose.orientation * Vec3::Unit(axis))[body.planeAxis]) < 0.5;
 }
 
-/// Stiffest modes of the body landing flat on any of its faces: springs act in all directions, dashpots only along
-/// the normal.
-struct FaceModes { double springs = 0, dashpots = 0; };
+/// Stiffest modes of the body on one sphere, and landing flat on any of its faces: springs act in all directions, dashpots only
+/// along the normal.
+struct ContactModes { double sphere = 0, face = 0, faceDashpots = 0; };
 
-FaceModes stiffestFace(const BodyDefinition& body)
+ContactModes stiffestModes(const BodyDefinition& body)
 {
-    FaceModes modes;
+    const Directions all = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+    ContactModes modes;
     for (int axis = 0; axis < 3; ++axis)
         for (const double sign : {-1.0, 1.0})
         {
             if (!canLandOn(body, axis))
                 continue;
             const std::vector<Vec3> points = facePoints(body, axis, sign);
-            modes.springs = std::max(modes.springs, stiffestMode(body, points, {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()}));
-            modes.dashpots = std::max(modes.dashpots, stiffestMode(body, points, {Vec3::Unit(axis)}));
+            modes.face = std::max(modes.face, stiffestMode(body, points, all));
+            modes.faceDashpots = std::max(modes.faceDashpots, stiffestMode(body, points, {Vec3::Unit(axis)}));
+            for (const Vec3& point : points)
+                modes.sphere = std::max(modes.sphere, stiffestMode(body, {point}, all));
         }
     return modes;
 }
+
+/// Held between neighbours on several sides, the partner moving as well: the square of the highest frequency and the largest rate of
+/// damping are about this many times those of the body landing on a fixed plane.
+constexpr double squeeze = 4;
+/// Where the dashpots of a flat landing are more than a sub-step can take, it may rebound with this share of the restitution.
+constexpr double flatShare = 0.1;
 
 } // namespace
 
@@ -250,31 +259,56 @@ ContactTable makeContactTable(const DemSetup& setup)
     return table;
 }
 
+int DampingLevel::of(double z) { return z > 1 ? static_cast<int>(std::ceil(4 * std::log2(z) - 1e-9)) : 0; }
+
+double DampingLevel::share(int level) { return std::exp2(-0.25 * level); }
+
+double ContactTable::dampingOf(int typeA, int typeB) const
+{
+    const int level = std::max(typeA - 1, typeB - 1) / size();
+    return damping[entryOf(typeA, typeB)] * DampingLevel::share(level);
+}
+
 double contactTimeStep(const DemSetup& setup, const ContactTable& table)
 {
-    // held between neighbours on several sides, the partner moving as well: the square of the highest frequency is
-    // about this many times that of the body landing on a fixed plane
-    constexpr double squeeze = 4;
     constexpr double stepsPerContact = 40;
     constexpr double stabilityMargin = 0.8;
+    // velocity Verlet with a dashpot that takes the part d of a velocity, half a step late, is stable for omega^2 dt^2 + 2 d < 4
+    const double limit = stabilityMargin * std::sqrt(2.0);
 
     double step = 1e300;
     const int n = table.size();
     for (size_t b = 0; b < setup.bodies.size(); ++b)
     {
-        const FaceModes mode = stiffestFace(setup.bodies[b]);
+        const ContactModes modes = stiffestModes(setup.bodies[b]);
         for (int other = 0; other < n; ++other)
         {
+            const ContactLaw& law = lawOf(setup, setup.bodies[b].material, table.classes[static_cast<size_t>(other)].material);
             const size_t entry = static_cast<size_t>(table.classOfBody[b] * n + other);
-            const double k = table.stiffness[entry], c = table.damping[entry];
-            const double duration = pi / std::sqrt(k * mode.springs);
-            const double omega2 = squeeze * k * mode.springs, rate = squeeze * c * mode.dashpots;
-            // velocity Verlet with the dashpot evaluated half a step late is stable for omega^2 dt^2 + 2 rate dt < 4
-            const double limit = (std::sqrt(rate * rate + 4 * omega2) - rate) / omega2;
-            step = std::min({step, duration / stepsPerContact, stabilityMargin * limit});
+            const double k = table.stiffness[entry];
+            const double resolved = law.perBody && law.flatRestitution ? modes.face : modes.sphere;
+            // a flat landing that stops in one sub-step has the damping ratio 1/(2 omega dt)
+            const double stop = 1 / (table.damping[entry] * modes.faceDashpots);
+            const double dead = 0.5 / (std::sqrt(k * modes.faceDashpots) * dampingRatioFor(flatShare * law.restitution));
+            step = std::min({step, pi / std::sqrt(k * resolved) / stepsPerContact, limit / std::sqrt(squeeze * k * modes.face),
+                             std::max(stop, dead)});
         }
     }
     return step;
+}
+
+int dampingLevels(const DemSetup& setup, const ContactTable& table, double step)
+{
+    constexpr double margin = 2; // what is known of a body's rate is a bound from above
+    double rate = 0;
+    const int n = table.size();
+    for (size_t b = 0; b < setup.bodies.size(); ++b)
+    {
+        const double dashpots = stiffestModes(setup.bodies[b]).faceDashpots;
+        for (int other = 0; other < n; ++other)
+            rate = std::max(rate, squeeze * table.damping[static_cast<size_t>(table.classOfBody[b] * n + other)] * dashpots);
+    }
+    return 1 + DampingLevel::of(margin * rate * step);
 }
 
 } // namespace flotsam

@@ -25,6 +25,14 @@ struct ContactClass
     int faceCount = 1;  ///< spheres that share the law of the body in a flat landing
 };
 
+/// Share of their damping that contacts keep which would take z times a velocity in a sub-step (SphereDamping): 1/z where z exceeds 1, in
+/// steps of a factor 2^(-1/4).
+struct DampingLevel
+{
+    static int of(double z);
+    static double share(int level);
+};
+
 /// Per pair of classes, row-major; numbers per touching sphere.
 struct ContactTable
 {
@@ -33,12 +41,22 @@ struct ContactTable
     std::vector<double> stiffness;  ///< [N/m]
     std::vector<double> damping;    ///< [N s/m]
     std::vector<double> friction;   ///< tan(angle)
+    int levels = 1;                 ///< of damping, see DampingLevel
     int size() const { return static_cast<int>(classes.size()); }
+
+    /// LIGGGHTS' atom types: every class at every level.
+    int typeCount() const { return size() * levels; }
+    int typeOf(int contactClass, int level) const { return level * size() + contactClass + 1; }
+    /// Entry of a table of the classes.
+    size_t entryOf(int typeA, int typeB) const { return static_cast<size_t>((typeA - 1) % size() * size() + (typeB - 1) % size()); }
+    double dampingOf(int typeA, int typeB) const;
 };
 
 ContactTable makeContactTable(const DemSetup& setup);
 
-/// Sub-step [s] for contacts: accurate and stable for every body landing flat, squeezed from several sides.
+/// Sub-step [s] for contacts: accurate where the restitution shall hold, stable for every body landing flat, squeezed from several sides.
 double contactTimeStep(const DemSetup& setup, const ContactTable& table);
+/// Levels of damping that such landings need at this sub-step [s].
+int dampingLevels(const DemSetup& setup, const ContactTable& table, double step);
 
 } // namespace flotsam

@@ -57,7 +57,7 @@ int insertBody(LiggghtsModel& model, const BodyDefinition& body, int contactClas
     const int n = static_cast<int>(body.spheres.size());
     LAMMPS_NS::ParticleToInsertMultisphere particle(&model.instance.lammps(), n);
     particle.groupbit = 1;
-    particle.atom_type = contactClass + 1;
+    particle.atom_type = model.contacts.typeOf(contactClass, 0);
     particle.type_ms = 1;
     particle.mass_ins = body.mass;
     // LIGGGHTS' density and volume are informative only; their product must be the mass

@@ -42,8 +42,7 @@ using Sums = std::map<std::pair<int, int>, Sum>;
 /// The law of the pair evaluated again with the velocities at the end of the sub-step (LIGGGHTS keeps no pair force).
 Vec3 pairForce(const ContactTable& table, const LAMMPS_NS::Atom& atoms, int i, int j, const double* spring)
 {
-    const int n = table.size();
-    const size_t entry = static_cast<size_t>((atoms.type[i] - 1) * n + atoms.type[j] - 1);
+    const size_t entry = table.entryOf(atoms.type[i], atoms.type[j]);
     const Vec3 separation = asVec(atoms.x[i]) - asVec(atoms.x[j]);
     const double distance = separation.norm();
     const Vec3 normal = separation / distance;
@@ -51,7 +50,7 @@ Vec3 pairForce(const ContactTable& table, const LAMMPS_NS::Atom& atoms, int i, i
     // rotation moves the contact point along the surfaces only
     const Vec3 approach = asVec(atoms.v[i]) - asVec(atoms.v[j]);
     const double normalSpeed = approach.dot(normal);
-    const double normalForce = std::max(0.0, table.stiffness[entry] * overlap - table.damping[entry] * normalSpeed);
+    const double normalForce = std::max(0.0, table.stiffness[entry] * overlap - table.dampingOf(atoms.type[i], atoms.type[j]) * normalSpeed);
     Vec3 tangential = -table.stiffness[entry] * asVec(spring);
     const double limit = table.friction[entry] * normalForce;
     if (tangential.norm() > limit)

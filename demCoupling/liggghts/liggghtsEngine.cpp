@@ -38,6 +38,7 @@ struct LiggghtsEngine::Implementation
     {
         model.contacts = makeContactTable(setup);
         timeStep = setup.timeStep > 0 ? setup.timeStep : contactTimeStep(setup, model.contacts);
+        model.contacts.levels = dampingLevels(setup, model.contacts, timeStep);
         writeScript(model, setup, timeStep);
         insertBodies(model, setup);
         model.tally->sample();

@@ -59,10 +59,17 @@ std::string numbers(const std::vector<double>& values)
     return text;
 }
 
-void addMaterialTable(LiggghtsModel& model, const std::string& name, const std::vector<double>& values)
+/// `value` of two atom types.
+template <class Value>
+void addMaterialTable(LiggghtsModel& model, const std::string& name, const Value& value)
 {
-    model.instance.addFix(words("table_" + name + " all property/global " + name + " peratomtypepair "
-                                + std::to_string(model.contacts.size()) + numbers(values)));
+    const int n = model.contacts.typeCount();
+    std::vector<double> values;
+    for (int a = 1; a <= n; ++a)
+        for (int b = 1; b <= n; ++b)
+            values.push_back(value(a, b));
+    model.instance.addFix(words("table_" + name + " all property/global " + name + " peratomtypepair " + std::to_string(n)
+                                + numbers(values)));
 }
 
 } // namespace
@@ -88,21 +95,24 @@ void writeScript(LiggghtsModel& model, const DemSetup& setup, double timeStep)
     dem.command("communicate single vel yes");
     dem.command("region box block" + numbers({box.lower.x(), box.upper.x(), box.lower.y(), box.upper.y(),
                                               box.lower.z(), box.upper.z()}) + " units box");
-    dem.command("create_box " + std::to_string(model.contacts.size()) + " box");
+    dem.command("create_box " + std::to_string(model.contacts.typeCount()) + " box");
     dem.command("neighbor " + exactText(setup.skin) + " bin");
     dem.command("neigh_modify delay 0 every 1 check yes binsize " + exactText(binSize(setup, box)));
     dem.command("timestep " + exactText(timeStep));
 
-    addMaterialTable(model, "kn", model.contacts.stiffness);
-    addMaterialTable(model, "kt", model.contacts.stiffness);
-    addMaterialTable(model, "gamman_abs", model.contacts.damping);
-    addMaterialTable(model, "gammat_abs", model.contacts.damping); // asked for, not used: see contactModelOptions()
-    addMaterialTable(model, "coefficientFriction", model.contacts.friction);
+    const ContactTable& table = model.contacts;
+    const auto stiffness = [&](int a, int b) { return table.stiffness[table.entryOf(a, b)]; };
+    const auto damping = [&](int a, int b) { return table.dampingOf(a, b); };
+    addMaterialTable(model, "kn", stiffness);
+    addMaterialTable(model, "kt", stiffness);
+    addMaterialTable(model, "gamman_abs", damping);
+    addMaterialTable(model, "gammat_abs", damping); // asked for, not used: see contactModelOptions()
+    addMaterialTable(model, "coefficientFriction", [&](int a, int b) { return table.friction[table.entryOf(a, b)]; });
     dem.command("pair_style gran model hooke/stiffness tangential history " + contactModelOptions());
     dem.command("pair_coeff * *");
     addWalls(model, setup);
     model.multisphere = static_cast<LAMMPS_NS::FixMultisphere*>(dem.addFix({"bodies", "all", "multisphere"}));
-    ContactTally::install(model);
+    ContactTally::install(model, setup);
     dem.command("thermo 1000000000");
 }
 

@@ -37,7 +37,7 @@ Load meshLoad(LAMMPS_NS::FixMeshSurface& mesh)
 
 } // namespace
 
-void ContactTally::install(LiggghtsModel& model)
+void ContactTally::install(LiggghtsModel& model, const DemSetup& setup)
 {
     LAMMPS_NS::Modify& modify = *model.instance.lammps().modify;
     model.instance.addFix({"tally", "all", "lineforce", "1", "0", "0"});
@@ -45,12 +45,15 @@ void ContactTally::install(LiggghtsModel& model)
     delete modify.fix[slot];
     std::array<std::string, 3> text = {"tally", "all", "flotsam/tally"};
     std::array<char*, 3> arguments = {text[0].data(), text[1].data(), text[2].data()};
-    model.tally = new ContactTally(&model.instance.lammps(), 3, arguments.data(), model);
+    model.tally = new ContactTally(&model.instance.lammps(), 3, arguments.data(), model, setup);
     modify.fix[slot] = model.tally;
     modify.fmask[slot] = model.tally->setmask();
 }
 
-int ContactTally::setmask() { return LAMMPS_NS::FixConst::END_OF_STEP | LAMMPS_NS::FixConst::PRE_NEIGHBOR; }
+int ContactTally::setmask()
+{
+    return LAMMPS_NS::FixConst::END_OF_STEP | LAMMPS_NS::FixConst::PRE_NEIGHBOR | LAMMPS_NS::FixConst::PRE_FORCE;
+}
 
 bool ContactTally::readBodies()
 {
@@ -212,6 +215,7 @@ void ContactTally::start()
 void ContactTally::startSteps(double step)
 {
     step_ = step;
+    damping_.startSteps(step);
     // the walls' loads are those of the last sub-step, or of the state restored since
     hasContact_ = readBodies() || hasContact_;
     for (const Load& load : wallNow_)
@@ -231,6 +235,7 @@ void ContactTally::end_of_step()
 
 void ContactTally::finishSteps()
 {
+    damping_.finishSteps();
     if (hasContact_)
         add(-0.5 * step_); // the last force is used with its second half only
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Adds up contact loads in every sub-step, exactly as the integrator uses them.
+/// Adds up contact loads in every sub-step, exactly as the integrator uses them, and keeps the damping of the spheres up to date.
 #pragma once
 
-#include "demCoupling/liggghts/liggghtsParts.hpp"
+#include "demCoupling/liggghts/liggghtsDamping.hpp"
 
 #include <mpi.h>
 
@@ -16,8 +16,8 @@ namespace flotsam
 class ContactTally : public LAMMPS_NS::Fix
 {
 public:
-    ContactTally(LAMMPS_NS::LAMMPS* lammps, int count, char** arguments, LiggghtsModel& model)
-        : LAMMPS_NS::Fix(lammps, count, arguments), model_(model)
+    ContactTally(LAMMPS_NS::LAMMPS* lammps, int count, char** arguments, LiggghtsModel& model, const DemSetup& setup)
+        : LAMMPS_NS::Fix(lammps, count, arguments), model_(model), damping_(model, setup)
     {
         nevery = 1;
     }
@@ -25,9 +25,13 @@ public:
     void end_of_step() override;
     void setup_pre_neighbor() override { pre_neighbor(); }
     void pre_neighbor() override;
+    void pre_force(int) override { damping_.beforeForces(nearPlane_); }
+    /// LIGGGHTS makes its tables for the types in use: all of them, though no body may have some at the start.
+    int min_type() override { return 1; }
+    int max_type() override { return model_.contacts.typeCount(); }
 
     /// Puts a tally in place of a fix without effect: LIGGGHTS makes fixes only of styles it was compiled with.
-    static void install(LiggghtsModel& model);
+    static void install(LiggghtsModel& model, const DemSetup& setup);
 
     /// Contact loads on bodies and walls at this instant (after set-up).
     void sample();
@@ -55,6 +59,7 @@ private:
     void add(double weight);
 
     LiggghtsModel& model_;
+    SphereDamping damping_;
     std::vector<Load> bodyNow_, bodySum_, bodyMean_, wallNow_, wallSum_, wallMean_;
     std::vector<std::vector<int>> nearPlane_; ///< per wall: spheres that can touch it before the next rebuild
     std::vector<MeshTouch> touches_;

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "demCoupling/liggghts/liggghtsDamping.hpp"
+
+#include "demCoupling/liggghts/closestPoint.hpp"
+
+#include <mpi.h>
+
+#include "atom.h"
+#include "fix_mesh_surface.h"
+#include "fix_multisphere.h"
+#include "fix_neighlist_mesh.h"
+#include "force.h"
+#include "lammps.h"
+#include "neigh_list.h"
+#include "pair_gran.h"
+
+namespace flotsam
+{
+
+namespace
+{
+
+Vec3 asVec(const double* v) { return Vec3(v[0], v[1], v[2]); }
+
+/// From above, at most an eighth too large (six equal ones); exact for a single contact.
+double largestEigenvalue(const Eigen::Matrix<double, 6, 6>& a)
+{
+    const Eigen::Matrix<double, 6, 6> second = a * a, fourth = second * second, eighth = fourth * fourth;
+    return std::sqrt(std::sqrt(std::sqrt(eighth.norm())));
+}
+
+} // namespace
+
+SphereDamping::SphereDamping(LiggghtsModel& model, const DemSetup& setup)
+    : model_(model), extents_(setup.bodies.size()), margins_(setup.bodies.size()), partners_(setup.bodies.size())
+{
+    for (size_t b = 0; b < setup.bodies.size(); ++b)
+        for (const SurfaceSphere& s : setup.bodies[b].spheres)
+            extents_[b] = std::max(extents_[b], s.centre.norm() + s.radius);
+}
+
+void SphereDamping::startSteps(double step)
+{
+    step_ = step;
+    stepsToLook_ = 0;
+}
+
+void SphereDamping::beforeForces(const std::vector<std::vector<int>>& nearPlane)
+{
+    if (step_ == 0 || stepsToLook_-- > 0 || model_.contacts.levels == 1)
+        return;
+    stepsToLook_ = stepsBetweenLooks - 1;
+    readBodies();
+    addPairs();
+    for (size_t w = 0; w < model_.walls.size(); ++w)
+        if (!model_.walls[w].mesh)
+            addPlane(w, nearPlane[w]);
+    for (size_t m = 0; m < model_.meshes.size(); ++m)
+        addMesh(m);
+    setLevels();
+}
+
+void SphereDamping::readBodies()
+{
+    const BodyArrays& b = model_.bodies;
+    near_.clear();
+    for (size_t i = 0; i < partners_.size(); ++i)
+    {
+        partners_[i].clear();
+        const double speed = asVec(b.vcm[i]).norm() + asVec(b.omega[i]).norm() * extents_[i];
+        margins_[i] = speed * stepsBetweenLooks * step_;
+    }
+}
+
+int SphereDamping::partnerOf(int body, int other)
+{
+    std::vector<Partner>& partners = partners_[static_cast<size_t>(body)];
+    for (size_t p = 0; p < partners.size(); ++p)
+        if (partners[p].other == other)
+            return static_cast<int>(p);
+    partners.push_back({other, Rates::Zero(), 0});
+    return static_cast<int>(partners.size()) - 1;
+}
+
+int SphereDamping::bodyOf(int sphere) const { return model_.multisphere->belongs_to(sphere) - 1; }
+
+double SphereDamping::damping(int sphere, int otherClass) const
+{
+    const int own = model_.contacts.classOfBody[static_cast<size_t>(bodyOf(sphere))];
+    return model_.contacts.damping[static_cast<size_t>(own * model_.contacts.size() + otherClass)];
+}
+
+/// M^-1/2 J^T of a contact: the square of its norm is what a unit impulse there changes of the normal velocity [1/kg].
+Eigen::Matrix<double, 6, 1> SphereDamping::inverseRoot(int body, const Vec3& arm, const Vec3& normal) const
+{
+    const BodyArrays& b = model_.bodies;
+    const Vec3 turn = arm.cross(normal);
+    Eigen::Matrix<double, 6, 1> row;
+    row.head<3>() = normal / std::sqrt(b.mass[body]);
+    const double* const axes[3] = {b.ex[body], b.ey[body], b.ez[body]};
+    for (int k = 0; k < 3; ++k)
+        row[3 + k] = turn.dot(asVec(axes[k])) / std::sqrt(b.inertia[body][k]);
+    return row;
+}
+
+/// Relative velocity of two bodies: (a - b)^2 <= (1 + s) a^2 + (1 + 1/s) b^2 splits their common matrix into one of each; with s the ratio of
+/// their mobilities the bound is exact for a single contact.
+void SphereDamping::addPairs()
+{
+    const LAMMPS_NS::Atom& atoms = *model_.instance.lammps().atom;
+    const LAMMPS_NS::NeighList& list = *model_.instance.lammps().force->pair->list;
+    for (int ii = 0; ii < list.inum; ++ii)
+    {
+        const int i = list.ilist[ii], a = bodyOf(i);
+        for (int jj = 0; jj < list.numneigh[i]; ++jj)
+        {
+            const int j = list.firstneigh[i][jj] & NEIGHMASK, b = bodyOf(j);
+            const Vec3 apart = asVec(atoms.x[i]) - asVec(atoms.x[j]);
+            const double reach = atoms.radius[i] + atoms.radius[j] + margins_[static_cast<size_t>(a)] + margins_[static_cast<size_t>(b)];
+            if (apart.squaredNorm() > reach * reach)
+                continue;
+            const Vec3 normal = apart.normalized(), point = asVec(atoms.x[j]) + atoms.radius[j] * normal;
+            const auto rowA = inverseRoot(a, point - asVec(model_.bodies.xcm[a]), normal);
+            const auto rowB = inverseRoot(b, point - asVec(model_.bodies.xcm[b]), normal);
+            const double c = damping(i, model_.contacts.classOfBody[static_cast<size_t>(b)]);
+            const double ratio = rowB.squaredNorm() / rowA.squaredNorm();
+            near_.push_back({i, j, a, partnerOf(a, b), b, partnerOf(b, a)});
+            const Near& n = near_.back();
+            partners_[static_cast<size_t>(a)][static_cast<size_t>(n.partner)].rates += c * (1 + ratio) * rowA * rowA.transpose();
+            partners_[static_cast<size_t>(b)][static_cast<size_t>(n.otherPartner)].rates += c * (1 + 1 / ratio) * rowB * rowB.transpose();
+        }
+    }
+}
+
+void SphereDamping::addWallContact(int sphere, int wallClass, int wall, const Vec3& point)
+{
+    const LAMMPS_NS::Atom& atoms = *model_.instance.lammps().atom;
+    const int body = bodyOf(sphere);
+    const Vec3 apart = asVec(atoms.x[sphere]) - point;
+    if (apart.norm() > atoms.radius[sphere] + margins_[static_cast<size_t>(body)])
+        return;
+    const auto row = inverseRoot(body, point - asVec(model_.bodies.xcm[body]), apart.normalized());
+    near_.push_back({sphere, -1, body, partnerOf(body, -1 - wall), -1, -1});
+    Partner& partner = partners_[static_cast<size_t>(body)][static_cast<size_t>(near_.back().partner)];
+    partner.rates += damping(sphere, wallClass) * row * row.transpose();
+}
+
+void SphereDamping::addPlane(size_t wall, const std::vector<int>& spheres)
+{
+    const LAMMPS_NS::Atom& atoms = *model_.instance.lammps().atom;
+    for (const int i : spheres)
+    {
+        Vec3 point = asVec(atoms.x[i]);
+        point[model_.walls[wall].axis] = model_.walls[wall].coordinate;
+        addWallContact(i, model_.contacts.classOfWall[wall], static_cast<int>(wall), point);
+    }
+}
+
+/// A sphere beside an edge counts for both triangles: on the safe side.
+void SphereDamping::addMesh(size_t mesh)
+{
+    const MeshGroup& group = model_.meshes[mesh];
+    const LAMMPS_NS::Atom& atoms = *model_.instance.lammps().atom;
+    const LAMMPS_NS::FixNeighlistMesh& near = *group.mesh->meshNeighlist();
+    LAMMPS_NS::TriMesh& triangles = *group.mesh->triMesh();
+    const int wallClass = model_.contacts.classOfWall[static_cast<size_t>(group.walls.front())];
+    for (int t = 0; t < triangles.sizeLocal(); ++t)
+    {
+        const std::vector<int>& spheres = near.get_contact_list(t);
+        if (spheres.empty())
+            continue;
+        Vec3 corners[3];
+        for (int k = 0; k < 3; ++k)
+            triangles.node_slow(t, k, corners[k].data());
+        for (const int i : spheres)
+            addWallContact(i, wallClass, static_cast<int>(model_.walls.size() + mesh),
+                           closestPointOfTriangle(asVec(atoms.x[i]), corners[0], corners[1], corners[2]));
+    }
+}
+
+void SphereDamping::setLevels()
+{
+    for (std::vector<Partner>& partners : partners_)
+    {
+        double sum = 0, largest = 0;
+        for (Partner& p : partners)
+        {
+            p.z = largestEigenvalue(p.rates) * step_;
+            sum += p.z;
+            largest = std::max(largest, p.z);
+        }
+        for (Partner& p : partners)
+            p.z *= largest > 0 ? sum / largest : 1;
+    }
+    levels_.assign(static_cast<size_t>(model_.firstSphere.back()), 0);
+    for (const Near& n : near_)
+    {
+        double z = partners_[static_cast<size_t>(n.body)][static_cast<size_t>(n.partner)].z;
+        if (n.other >= 0)
+            z = std::max(z, partners_[static_cast<size_t>(n.otherBody)][static_cast<size_t>(n.otherPartner)].z);
+        const int level = std::min(DampingLevel::of(z), model_.contacts.levels - 1);
+        for (const int sphere : {n.sphere, n.other})
+            if (sphere >= 0)
+                levels_[static_cast<size_t>(sphere)] = std::max(levels_[static_cast<size_t>(sphere)], level);
+    }
+    int* const type = model_.instance.lammps().atom->type;
+    for (size_t b = 0; b < partners_.size(); ++b)
+        for (int i = model_.firstSphere[b]; i < model_.firstSphere[b + 1]; ++i)
+            type[i] = model_.contacts.typeOf(model_.contacts.classOfBody[b], levels_[static_cast<size_t>(i)]);
+}
+
+} // namespace flotsam

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// How much of their dashpots contacts keep, by how strongly they damp a body together.
+#pragma once
+
+#include "demCoupling/liggghts/liggghtsParts.hpp"
+
+namespace flotsam
+{
+
+/// A dashpot that sees the velocity of half a sub-step ago takes z = (rate of damping x sub-step) of it: more than there is when many
+/// spheres of a body touch at once. Such contacts keep 1/z of their damping, z that of all contacts
+/// with the same partner, times the number of partners that matter as much. A bar on the floor thus takes nothing from the damping of another that
+/// lies across it. The share is an atom type of the spheres (DampingLevel in contactLaw.hpp), so that LIGGGHTS' limits of normal
+/// and friction force hold for the damped force.
+class SphereDamping
+{
+public:
+    SphereDamping(LiggghtsModel& model, const DemSetup& setup);
+
+    /// Before sub-steps of equal length [s].
+    void startSteps(double step);
+    void finishSteps() { step_ = 0; }
+    /// Before the forces of a sub-step; `nearPlane`: per wall, spheres that can touch the plane.
+    void beforeForces(const std::vector<std::vector<int>>& nearPlane);
+
+private:
+    /// M^-1/2 (damping matrix) M^-1/2 of a body in contact with one partner, which moves as well [1/s].
+    using Rates = Eigen::Matrix<double, 6, 6>;
+    struct Partner
+    {
+        int other;      ///< body, or -1 - wall, or -1 - mesh - number of walls
+        Rates rates;
+        double z;
+    };
+    struct Near { int sphere, other, body, partner, otherBody, otherPartner; }; ///< other: sphere, or -1
+    static constexpr int stepsBetweenLooks = 10;
+
+    void readBodies();
+    int partnerOf(int body, int other);
+    void addPairs();
+    void addPlane(size_t wall, const std::vector<int>& spheres);
+    void addMesh(size_t mesh);
+    void addWallContact(int sphere, int wallClass, int wall, const Vec3& point);
+    Eigen::Matrix<double, 6, 1> inverseRoot(int body, const Vec3& arm, const Vec3& normal) const;
+    int bodyOf(int sphere) const;
+    double damping(int sphere, int otherClass) const;
+    void setLevels();
+
+    LiggghtsModel& model_;
+    std::vector<double> extents_;   ///< of each body from its centre [m]
+    std::vector<double> margins_;   ///< how far the surface of each body moves until the next look [m]
+    std::vector<std::vector<Partner>> partners_; ///< of each body
+    std::vector<Near> near_;
+    std::vector<int> levels_;       ///< of each sphere
+    double step_ = 0;               ///< [s], 0 between calls
+    int stepsToLook_ = 0;
+};
+
+} // namespace flotsam
