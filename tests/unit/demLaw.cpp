@@ -61,3 +61,24 @@ TEST_CASE("classes: one per material, mass and face; shared when there are very 
     setup.bodies[7].material = 3;
     CHECK_THROWS_AS(makeContactTable(setup), DemError);
 }
+
+TEST_CASE("dashpots of many spheres: at most the velocity there is, and never much less")
+{
+    for (const double z : {0.01, 0.5, 1.0})
+        CHECK(DampingLevel::of(z) == 0);
+    for (const double z : {1.01, 1.7, 3.0, 12.0})
+    {
+        const double taken = z * DampingLevel::share(DampingLevel::of(z));
+        CHECK(taken <= 1 + 1e-8);
+        CHECK(taken > 0.84);
+    }
+    DemSetup setup = scene({debris(Vec3::Zero())}, {plane(Vec3::Zero(), Vec3::UnitZ())});
+    ContactTable table = makeContactTable(setup);
+    const double step = contactTimeStep(setup, table);
+    CHECK(dampingLevels(setup, table, 0.01 * step) == 1);
+    table.levels = dampingLevels(setup, table, step);
+    CHECK(table.levels > 8);
+    const int bar = table.typeOf(table.classOfBody[0], 4), wall = table.typeOf(table.classOfWall[0], 0);
+    CHECK(table.dampingOf(bar, wall) == doctest::Approx(0.5 * table.damping[table.entryOf(bar, wall)]));
+    CHECK(table.dampingOf(wall, bar) == table.dampingOf(bar, wall));
+}
