@@ -13,6 +13,7 @@
 
 #include <cmath>
 #include <memory>
+#include <numeric>
 
 using namespace flotsam;
 
@@ -176,8 +177,11 @@ void cutTwentyBars(benchmark::State& state)
     }
     countPer(state, "cut element", double(builder->cover().cuts.size()));
     state.counters["nodes"] = mesh.nNodes;
+    const Cover& cover = builder->cover();
+    state.counters["volume"] = std::accumulate(cover.solidVolume.begin(), cover.solidVolume.end(), 0.0);
+    state.counters["area"] = std::accumulate(cover.solidArea.begin(), cover.solidArea.end(), 0.0);
 }
-BENCHMARK(cutTwentyBars)->ArgNames({"length", "anew"})->Args({6, 0})->Args({24, 0})->Args({6, 1})->Unit(benchmark::kMillisecond);
+BENCHMARK(cutTwentyBars)->ArgNames({"length", "anew"})->Args({6, 0})->Args({24, 0})->Args({6, 1})->Args({24, 1})->Unit(benchmark::kMillisecond);
 
 /// Twenty bars that do not come near each other: one call of the coupling's length. Argument: 0 lets the engine take its large steps, 1
 /// forces the contact sub-steps. Counters: sub-steps of a call; place of the last bar after 0.1 s, which must not depend on the argument.

@@ -20,6 +20,7 @@ class Scene:
     few: int                # steps before the timed ones
     many: int               # steps of the longer run
     start: float = 0        # [s]
+    extra: dict = None      # of the program's environment
 
 
 def damBreak(root, runs, dim, n, solver):

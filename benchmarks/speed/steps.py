@@ -79,11 +79,11 @@ def _otherShare(log, first):
     return sum(float(wall) * int(rest) / 100 for rest, wall in lines) / sum(float(wall) for _, wall in lines)
 
 
-def _ours(command, folder, write_, few, many):
+def _ours(command, folder, write_, few, many, extra):
     write_(few)
-    first = run(command, folder)
+    first = run(command, folder, extra=extra)
     write_(many)
-    last = run(command, folder)
+    last = run(command, folder, extra=extra)
     before, after = phases(first["log"]), phases(last["log"])
     row = {p: (after[p][1] - before[p][1]) / (many - few) for p in PHASES if p in after and p != "other"}
     share = _otherShare(last["log"], few)
@@ -101,12 +101,13 @@ def _peers(command, folder, write_, few, many):
     return {"cpu": (clock[-1] - clock[few - 1]) / (many - few), "peak": result["peak"], "startup": clock[few - 1], "iterations": iterations(result["log"], few)}
 
 
-def measure(command, folder, stepSize, few, many, start=0, writeLast=False):
-    """{cpu: processor seconds a step, <phase>: the same by phase (ours), iterations, peak [kB], startup: processor seconds up to the first timed step}"""
+def measure(command, folder, stepSize, few, many, start=0, writeLast=False, extra=None):
+    """{cpu: processor seconds a step, <phase>: the same by phase (ours), iterations, peak [kB], startup: processor seconds up to the first timed step}.
+    extra: of our program's environment."""
     def write_(count):
         write(folder, stepSize, count, start, writeLast and count == many)
     isOurs = os.path.basename(command[0]) == "flotsamFoam"
-    return (_ours if isOurs else _peers)(command, folder, write_, few, many)
+    return _ours(command, folder, write_, few, many, extra) if isOurs else _peers(command, folder, write_, few, many)
 
 
 def medians(rows):

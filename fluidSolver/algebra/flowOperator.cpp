@@ -14,6 +14,11 @@ void FlowOperator::graphRows(const double* x, const double* ofPressure, double* 
     const int* column = graph_.column.data();
     for (int i = 0; i < nOwned_; ++i)
     {
+        if (!s_.isActive[i])    // no fluid, no unknowns: the row is empty
+        {
+            std::fill_n(y + std::size_t(i)*B, B, 0.0);
+            continue;
+        }
         double sum[B] = {};
         if (!withGradient)
             for (int r = 0; r < D; ++r) sum[r] = ofPressure[std::size_t(i)*D + r];
@@ -93,7 +98,7 @@ void FlowOperator::divergenceT(const double* x, const double* q, double* y) cons
     for (int i = 0; i < nOwned_; ++i)
     {
         double sum = 0;
-        for (int k = graph_.rowStart[i]; k < graph_.rowStart[i + 1]; ++k)
+        for (int k = graph_.rowStart[i]; s_.isActive[i] && k < graph_.rowStart[i + 1]; ++k)
         {
             const double* a = &s_.matrix.divergence[std::size_t(k)*D];
             const double* v = x + std::size_t(column[k])*B;
@@ -121,7 +126,7 @@ void FlowOperator::gradientT(const double* p, double* y) const
     for (int i = 0; i < nOwned_; ++i)
     {
         double sum[D] = {};
-        for (int k = graph_.rowStart[i]; k < graph_.rowStart[i + 1]; ++k)
+        for (int k = graph_.rowStart[i]; s_.isActive[i] && k < graph_.rowStart[i + 1]; ++k)
         {
             const double* a = &s_.matrix.gradient[std::size_t(k)*D];
             const double v = p[column[k]];

@@ -9,7 +9,6 @@ namespace flotsam
 namespace
 {
 
-constexpr int maxAge = 20;              // steps a hierarchy is kept at most
 constexpr int maxAgeWhileCutMoves = 4;
 constexpr int setupCost = 3;            // GMRES iterations that cost as much as a new hierarchy
 constexpr double singularShift = 1e-7;  // relative diagonal shift of the matrix without a pressure level
@@ -21,6 +20,7 @@ PressureHierarchy::PressureHierarchy(const SimplexMesh& mesh, const NodeGraph& g
 {
     check(VecCreateMPI(halo.comm(), mesh.nOwned, PETSC_DETERMINE, &in_));
     check(VecCreateMPIWithArray(halo.comm(), 1, mesh.nOwned, PETSC_DETERMINE, nullptr, &out_));
+    check(PetscOptionsGetInt(nullptr, nullptr, "-pressure_max_age", &maxAge_, nullptr)); // 0: anew in every step, to see what keeping it saves
 }
 
 PressureHierarchy::~PressureHierarchy()
@@ -114,7 +114,7 @@ void PressureHierarchy::createCycle()
 /// excess is above the mean of what a step has cost in excess and set-up: from then on that mean would rise.
 bool PressureHierarchy::isWorn(const FlowSystem& system) const
 {
-    if (age_ < 0 || age_ >= maxAge) return true;
+    if (age_ < 0 || age_ >= maxAge_) return true;
     if (system.geometryChanged && age_ >= maxAgeWhileCutMoves) return true;
     return lastExcess_ > 0 && lastExcess_*nSolves_ >= setupCost + sumOfExcess_;
 }

@@ -55,6 +55,7 @@ private:
     Mat matrix_ = nullptr;
     PC cycle_ = nullptr;
     Vec in_ = nullptr, out_ = nullptr;
+    PetscInt maxAge_ = 20;      // steps it is kept at most
     int age_ = -1;              // steps since it was built
     int nSolves_ = 0, leastIterations_ = 0, lastExcess_ = 0, sumOfExcess_ = 0; // first solves of the steps since
     std::vector<double> builtScale_, weight_;   // nOwned: scale then; diagonal of W

@@ -39,6 +39,7 @@ struct NumericsControls
     double densityClip = 0.002;     ///< c of balance.md 1.1d
     bool balancedGravity = true;    ///< false: rho_e g
     int gravityLayers = 6;          ///< rings over which interface planes are handed on
+    int gasDepth = 0;               ///< rings of elements around the water in which the gas is computed; 0: everywhere
     // linear solver
     double tolerance = 1e-5;        ///< relative residual of the scaled system
     int maxIterations = 200;

@@ -72,7 +72,7 @@ void DualCellTransport::addFaceValues(const Arguments& in)
         const int e = stored_[active_[k]];
         const int* nodes = &mesh_.elements[std::size_t(e)*n];
         const double dt = timeStep(in, activeLevel_[k]);
-        const double* flux = &flux_[active_[k]*Pairs::count];
+        const double* flux = &flux_[std::size_t(active_[k])*Pairs::count];
         double* antiFlux = &antiFlux_[k*Pairs::count];
         const FaceGeometry<dim> geometry(mesh_, in.u, nodes);
 

@@ -29,15 +29,16 @@ void DualCellTransport::findActive(const Part& part)
     activeLevel_.clear();
     for (int l = part.level; l <= largestLevel_; ++l)
     {
-        for (std::size_t k = storedStart_[l]; k < storedStart_[l + 1]; ++k)
+        for (std::size_t k = levelStart_[l]; k < levelStart_[l + 1]; ++k)
         {
-            if (isBulk(stored_[k]))
+            const int e = stored_[byLevel_[k]];
+            if (isBulk(e))
             {
                 continue;
             }
-            active_.push_back(k);
+            active_.push_back(byLevel_[k]);
             activeLevel_.push_back(l);
-            const int* nodes = &mesh_.elements[std::size_t(stored_[k])*(dim + 1)];
+            const int* nodes = &mesh_.elements[std::size_t(e)*(dim + 1)];
             for (int a = 0; a <= dim; ++a)
             {
                 if (!isActiveNode_[nodes[a]])
@@ -53,13 +54,24 @@ void DualCellTransport::findActive(const Part& part)
         open(i);
         limiter_[2*std::size_t(i)] = limiter_[2*std::size_t(i) + 1] = 0;
     }
-    findAround();
+    findAround(part);
 }
 
 /// All elements around the active nodes in which alpha varies.
-void DualCellTransport::findAround()
+void DualCellTransport::findAround(const Part& part)
 {
     aroundActive_.clear();
+    if (part.level == 0)    // all act
+    {
+        for (int e = 0; e < mesh_.nElements; ++e)
+        {
+            if (!isBulk(e))
+            {
+                aroundActive_.push_back(e);
+            }
+        }
+        return;
+    }
     for (int i : activeNodes_)
     {
         for (int k = graph_.nodeElementStart[i]; k < graph_.nodeElementStart[i + 1]; ++k)
@@ -83,26 +95,26 @@ template<int dim>
 void DualCellTransport::limit(const Arguments& in, TransportReport& report)
 {
     using Pairs = CornerPairs<dim>;
-    const auto forAllPairs = [&](auto&& act) {
-        for (std::size_t k = 0; k < active_.size(); ++k)
+    constexpr int n = dim + 1;
+    for (std::size_t k = 0; k < active_.size(); ++k)
+    {
+        const double* flux = &antiFlux_[k*Pairs::count];
+        double increase[n] = {}, decrease[n] = {};
+        for (int p = 0; p < Pairs::count; ++p)
         {
-            const int* nodes = &mesh_.elements[std::size_t(stored_[active_[k]])*(dim + 1)];
-            for (int p = 0; p < Pairs::count; ++p)
-            {
-                const double flux = antiFlux_[k*Pairs::count + p];
-                if (flux != 0)
-                {
-                    act(flux > 0 ? nodes[Pairs::first[p]] : nodes[Pairs::second[p]],
-                        flux > 0 ? nodes[Pairs::second[p]] : nodes[Pairs::first[p]], flux, k, p);
-                }
-            }
+            const double forward = std::max(flux[p], 0.), backward = std::max(-flux[p], 0.);
+            increase[Pairs::second[p]] += forward;
+            decrease[Pairs::first[p]] += forward;
+            increase[Pairs::first[p]] += backward;
+            decrease[Pairs::second[p]] += backward;
         }
-    };
-    forAllPairs([&](int from, int to, double signedFlux, std::size_t, int) {
-        const double flux = std::abs(signedFlux);
-        limiter_[2*std::size_t(to)] += flux;
-        limiter_[2*std::size_t(from) + 1] += flux;
-    });
+        const int* nodes = &mesh_.elements[std::size_t(stored_[active_[k]])*n];
+        for (int a = 0; a < n; ++a)
+        {
+            limiter_[2*std::size_t(nodes[a])] += increase[a];
+            limiter_[2*std::size_t(nodes[a]) + 1] += decrease[a];
+        }
+    }
     for (int i : activeNodes_)
     {
         // the smaller over the larger: sums as small as 1e-310 would overflow the other way round
@@ -115,18 +127,42 @@ void DualCellTransport::limit(const Arguments& in, TransportReport& report)
     {
         halo_.update(limiter_, 2);
     }
-    forAllPairs([&](int from, int to, double signedFlux, std::size_t k, int p) {
-        const double flux = std::abs(signedFlux);
-        const int e = stored_[active_[k]];
-        const double factor = std::min(limiter_[2*std::size_t(to)], limiter_[2*std::size_t(from) + 1]);
-        liquid_[to] += factor*flux;
-        liquid_[from] -= factor*flux;
-        liquidFlux_[active_[k]*Pairs::count + p] += factor*signedFlux/in.dt;
-        const int level = largestLevel_ == 0 ? 0 : elementLevel(e);
-        if (isMeeting_[to] && level_[to] == level) firstLiquid_[to] += factor*flux;
-        if (isMeeting_[from] && level_[from] == level) firstLiquid_[from] -= factor*flux;
-        report.nLimited += factor < 1 && (1 - factor)*flux > reportedLimit*mesh_.volume[e] && mesh_.isOwnedElement[e];
-    });
+    for (std::size_t k = 0; k < active_.size(); ++k)
+    {
+        addLimited<dim>(in, k, report);
+    }
+}
+
+/// What the limiter leaves of an active element's fluxes.
+template<int dim>
+void DualCellTransport::addLimited(const Arguments& in, std::size_t k, TransportReport& report)
+{
+    using Pairs = CornerPairs<dim>;
+    constexpr int n = dim + 1;
+    const std::size_t at = std::size_t(active_[k]);
+    const int e = stored_[at], level = activeLevel_[k];
+    const int* nodes = &mesh_.elements[std::size_t(e)*n];
+    double* liquidFlux = &liquidFlux_[at*Pairs::count];
+    double change[n] = {};
+    for (int p = 0; p < Pairs::count; ++p)
+    {
+        const int a = Pairs::first[p], b = Pairs::second[p];
+        const double flux = antiFlux_[k*Pairs::count + p];
+        const int from = flux > 0 ? a : b, to = flux > 0 ? b : a;
+        const double factor = std::min(limiter_[2*std::size_t(nodes[to])], limiter_[2*std::size_t(nodes[from]) + 1]);
+        change[a] -= factor*flux;
+        change[b] += factor*flux;
+        liquidFlux[p] += factor*flux/in.dt;
+        report.nLimited += factor < 1 && (1 - factor)*std::abs(flux) > reportedLimit*mesh_.volume[e] && mesh_.isOwnedElement[e];
+    }
+    for (int a = 0; a < n; ++a)
+    {
+        liquid_[nodes[a]] += change[a];
+        if (isMeeting_[nodes[a]] && level_[nodes[a]] == level)
+        {
+            firstLiquid_[nodes[a]] += change[a];
+        }
+    }
 }
 
 template void DualCellTransport::findActive<2>(const Part&);

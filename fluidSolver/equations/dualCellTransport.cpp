@@ -92,19 +92,35 @@ template<int dim>
 void DualCellTransport::addUpwind(const Arguments& in, const Part& part)
 {
     using Pairs = CornerPairs<dim>;
+    constexpr int n = dim + 1;
     for (int l = part.level; l <= largestLevel_; ++l)
     {
-        const double dt = timeStep(in, l);
-        for (std::size_t k = storedStart_[l]; k < storedStart_[l + 1]; ++k)
+        const double dt = timeStep(in, l), share = dt/in.dt;
+        for (std::size_t k = levelStart_[l]; k < levelStart_[l + 1]; ++k)
         {
-            const int* nodes = &mesh_.elements[std::size_t(stored_[k])*(dim + 1)];
+            const std::size_t at = std::size_t(byLevel_[k]);
+            const int* nodes = &mesh_.elements[std::size_t(stored_[at])*n];
+            const double* flux = &flux_[at*Pairs::count];
+            double* liquidFlux = &liquidFlux_[at*Pairs::count];
+            double upwind[n], volume[n] = {}, liquid[n] = {};
+            for (int a = 0; a < n; ++a)
+            {
+                upwind[a] = upwind_[nodes[a]];
+            }
             for (int p = 0; p < Pairs::count; ++p)
             {
-                const int a = nodes[Pairs::first[p]], b = nodes[Pairs::second[p]];
-                const double volume = dt*flux_[k*Pairs::count + p], alpha = upwind_[volume > 0 ? a : b];
-                fill(a, -volume, alpha);
-                fill(b, volume, alpha);
-                liquidFlux_[k*Pairs::count + p] += volume*alpha/in.dt;
+                const int a = Pairs::first[p], b = Pairs::second[p];
+                const double carried = flux[p]*upwind[flux[p] > 0 ? a : b];
+                volume[a] -= flux[p];
+                volume[b] += flux[p];
+                liquid[a] -= carried;
+                liquid[b] += carried;
+                liquidFlux[p] += share*carried;
+            }
+            for (int a = 0; a < n; ++a)
+            {
+                volume_[nodes[a]] += dt*volume[a];
+                liquid_[nodes[a]] += dt*liquid[a];
             }
         }
         for (int i : meeting_[l])
@@ -136,12 +152,9 @@ void DualCellTransport::addBoundary(const Arguments& in, const Part& part, Trans
 
 void DualCellTransport::addPairs(const Arguments& in, const Part& part)
 {
+    const auto levelOf = [this](const PairFlux& pair) { return std::max(level_[pair.a], level_[pair.b]); };
     const auto add = [&](const PairFlux& pair) {
-        const int level = std::max(level_[pair.a], level_[pair.b]);
-        if (level < part.level)
-        {
-            return;
-        }
+        const int level = levelOf(pair);
         const double volume = timeStep(in, level)*pair.flux, alpha = upwind_[volume > 0 ? pair.a : pair.b];
         fill(pair.a, -volume, alpha);
         fill(pair.b, volume, alpha);
@@ -158,6 +171,10 @@ void DualCellTransport::addPairs(const Arguments& in, const Part& part)
     }
     for (int k : steppedPairs_)
     {
+        if (levelOf(in.pairFlux[k]) < part.level)
+        {
+            break;
+        }
         add(in.pairFlux[k]);
     }
 }

@@ -81,8 +81,9 @@ private:
     template<int dim> void sumElementRates(const Arguments& in);
     void sumOtherRates(const Arguments& in);
     void findNodeLevels(const Arguments& in);
-    template<int dim> void sortElements(const Arguments& in);
-    template<int dim> void storeElement(const Arguments& in, std::size_t position, int e);
+    template<int dim> void storeSteppedBulk(const Arguments& in);
+    void sortElements();
+    void findMeetingNodes();
     void findPhases(const std::vector<double>& alpha, int begin, int end);
     int elementLevel(int e) const;
     bool isBulk(int e) const;
@@ -100,10 +101,11 @@ private:
     void addBoundary(const Arguments& in, const Part& part, TransportReport& report);
     void addPairs(const Arguments& in, const Part& part);
     template<int dim> void findActive(const Part& part);
-    void findAround();
+    void findAround(const Part& part);
     template<int dim> void addFaceValues(const Arguments& in);
     template<int dim> void addModelFlux(const Arguments& in);
     template<int dim> void limit(const Arguments& in, TransportReport& report);
+    template<int dim> void addLimited(const Arguments& in, std::size_t k, TransportReport& report);
     void closeCells(const Arguments& in, const Part& part, TransportReport& report);
     double timeStep(const Arguments& in, int level) const { return std::ldexp(in.dt, -level); }
     void fill(int node, double volume, double alpha) { volume_[node] += volume; liquid_[node] += volume*alpha; }
@@ -127,13 +129,14 @@ private:
     std::vector<double> rest_;              // per node: inflow - outflow of the elements that are not stored
     std::vector<int> level_;                // per node
     int largestLevel_ = 0;                  // of all ranks
-    std::vector<int> stored_;               // inner elements by level: those that alpha varies in (level 0), all (others)
-    std::vector<std::size_t> storedStart_;  // per level, and the end
+    std::vector<int> stored_;               // inner elements: those that alpha varies in, then the others of level 1 and above
+    std::vector<int> byLevel_;              // positions in stored_ by level
+    std::vector<std::size_t> levelStart_;   // per level in byLevel_, and the end
     std::vector<int> storedAt_;             // per element: position in stored_, -1
     std::vector<double> liquidFlux_;        // like flux_: of the liquid, mean over the step
     std::vector<double> flux_;              // per stored element and pair of its corners, first to second [m^dim/s]
     std::vector<int> steppedNodes_;         // nodes of level 1 and above, by falling level
-    std::vector<int> steppedPairs_;         // pairs with such a node
+    std::vector<int> steppedPairs_;         // pairs with such a node, by falling level
     std::vector<double> liquid_, volume_;   // per owned node: what its cell holds at this moment [m^dim]
     std::vector<double> upwind_;            // per node: their ratio
     std::vector<std::vector<int>> meeting_; // per level: nodes of it in elements of higher levels
@@ -141,9 +144,9 @@ private:
     std::vector<double> firstLiquid_, firstVolume_; // of those: what their own level has exchanged for the whole of its time step
 
     // one part of it
-    std::vector<std::size_t> active_;       // positions in stored_ of acting elements that alpha varies in
+    std::vector<int> active_;               // positions in stored_ of acting elements that alpha varies in
     std::vector<int> activeLevel_;          // their levels
-    std::vector<int> aroundActive_;         // elements that alpha varies in and that touch activeNodes_
+    std::vector<int> aroundActive_;         // elements that alpha varies in, all that touch activeNodes_
     std::vector<int> activeNodes_;          // owned and first-ring nodes of the acting elements that alpha varies in
     std::vector<char> isActiveNode_, isListed_;     // the latter: elements in aroundActive_
     std::vector<double> antiFlux_;          // per active element and pair: liquid beyond the upwind value [m^dim]

@@ -2,6 +2,7 @@
 /// Boundary conditions on the mesh's patches: prescribed directions, open boundaries.
 #include "equations/flowEquation.hpp"
 
+#include "equations/gasRegion.hpp"
 #include "geometry/cutSimplex.hpp"
 
 #include <algorithm>
@@ -14,6 +15,7 @@ namespace flotsam
 namespace
 {
 
+constexpr double noLevel = 1e300;  // no boundary with a given pressure
 constexpr double sameNormal = 0.9; // cosine above which two slip faces at a node belong to one smooth wall
 
 /// Area vector of a patch face (outward), dim components.
@@ -190,6 +192,7 @@ void FlowEquation::buildConstraints()
     bool any = false;
     for (int i = 0; i < mesh_.nOwned; ++i) any = any || system_.isPressureFixed[i];
     system_.hasPressureLevel = halo_.any(any);
+    isPatchPressureFixed_ = system_.isPressureFixed;
 }
 
 void FlowEquation::applyConstraints(const std::vector<PatchValues>& values, std::vector<double>& x) const
@@ -228,13 +231,18 @@ void FlowEquation::applyConstraints(const std::vector<PatchValues>& values, std:
             x[std::size_t(i)*B + dim] = values[p].pressure[k];
         }
     }
+    for (int i = 0; i < mesh_.nNodes && step_.gas; ++i)
+    {
+        const bool isOut = !step_.cover->isActiveNode[i] && step_.cover->nearestSolid[i] < 0;
+        if (isOut) std::fill_n(&x[std::size_t(i)*B], dim, 0.0);
+        if (isOut || step_.gas->isEdge()[i]) x[std::size_t(i)*B + dim] = gasPressure(i);
+    }
     halo_.update(x, B);
 }
 
 template<int D>
 void FlowEquation::assembleOpenBoundaries()
 {
-    constexpr int B = D + 1;
     for (std::size_t p = 0; p < patches_.size(); ++p)
     {
         const BoundaryPatch& patch = patches_[p];
@@ -250,42 +258,118 @@ void FlowEquation::assembleOpenBoundaries()
         for (std::size_t f = 0; f < faces.faceElement.size(); ++f)
         {
             const int* nodes = &faces.faceNodes[f*D];
+            if (step_.gas && step_.cover->state[faces.faceElement[f]] == ElementState::Solid) continue;
             const FaceMoments<D> moments(step_.cover, nodes);
             double v[3];
             outwardVector(mesh_, faces, f, v);
-            double size2 = 0;
-            for (int d = 0; d < D; ++d) size2 += v[d]*v[d];
-            for (int k = 0; k < D; ++k)
-            {
-                const int i = nodes[k];
-                if (i >= mesh_.nOwned || moments.first[k] <= 0) continue;
-                double flux = 0;
-                for (int d = 0; d < D; ++d) flux += nodal_.advection[std::size_t(i)*D + d]*v[d]*moments.first[k];
-                // boundary part of the skew-symmetric convection where the fluid leaves (lumped); what enters brings no
-                // tangential velocity (pressureInletOutletVelocity)
-                double* m = &system_.matrix.velocity[std::size_t(graph_.diagonal[i])*D*D];
-                for (int d = 0; d < D; ++d)
-                {
-                    m[d*D + d] += 0.5*nodal_.rho[i]*std::abs(flux);
-                    for (int l = 0; l < D && flux < 0; ++l) m[d*D + l] += 0.5*nodal_.rho[i]*flux*v[d]*v[l]/size2;
-                }
-                // - int p_ext w.n; without a prescribed pressure the unknown's own value acts
-                for (int l = 0; l < D; ++l)
-                {
-                    const double weight = moments.second[k*D + l];
-                    if (hasPressure)
-                    {
-                        for (int d = 0; d < D; ++d) system_.rhs[std::size_t(i)*B + d] -= weight*pressureAt(nodes[l])*v[d];
-                        continue;
-                    }
-                    double* column = &system_.matrix.gradient[std::size_t(graph_.find(i, nodes[l]))*D];
-                    for (int d = 0; d < D; ++d) column[d] += weight*v[d];
-                }
-            }
+            double pressure[D] = {};
+            for (int k = 0; k < D && hasPressure; ++k) pressure[k] = pressureAt(nodes[k]);
+            addOpenFace<D>(nodes, v, moments.first, moments.second, hasPressure ? pressure : nullptr);
         }
     }
 }
 
+/// pressure: prescribed at the face's nodes; null: the unknown's own value acts.
+template<int D>
+void FlowEquation::addOpenFace(const int* nodes, const double* v, const double* first, const double* second, const double* pressure)
+{
+    constexpr int B = D + 1;
+    double size2 = 0;
+    for (int d = 0; d < D; ++d) size2 += v[d]*v[d];
+    for (int k = 0; k < D; ++k)
+    {
+        const int i = nodes[k];
+        if (i >= mesh_.nOwned || first[k] <= 0) continue;
+        double flux = 0;
+        for (int d = 0; d < D; ++d) flux += nodal_.advection[std::size_t(i)*D + d]*v[d]*first[k];
+        // boundary part of the skew-symmetric convection where the fluid leaves (lumped); what enters brings no
+        // tangential velocity (pressureInletOutletVelocity)
+        double* m = &system_.matrix.velocity[std::size_t(graph_.diagonal[i])*D*D];
+        for (int d = 0; d < D; ++d)
+        {
+            m[d*D + d] += 0.5*nodal_.rho[i]*std::abs(flux);
+            for (int l = 0; l < D && flux < 0; ++l) m[d*D + l] += 0.5*nodal_.rho[i]*flux*v[d]*v[l]/size2;
+        }
+        for (int l = 0; l < D; ++l)     // - int p_ext w.n
+        {
+            const double weight = second[k*D + l];
+            if (pressure)
+            {
+                for (int d = 0; d < D; ++d) system_.rhs[std::size_t(i)*B + d] -= weight*pressure[l]*v[d];
+                continue;
+            }
+            double* column = &system_.matrix.gradient[std::size_t(graph_.find(i, nodes[l]))*D];
+            for (int d = 0; d < D; ++d) column[d] += weight*v[d];
+        }
+    }
+}
+
+double FlowEquation::gasPressure(int i) const
+{
+    double p = gasLevel_;
+    for (int d = 0; d < mesh_.dim; ++d) p += fluid_.rhoGas*fluid_.gravity[mesh_.axes[d]]*mesh_.x[std::size_t(i)*mesh_.dim + d];
+    return p;
+}
+
+/// Pressures at the edge of the gas that is computed: prescribed, those of gas at rest under the boundaries with a given pressure. Of these the
+/// lowest counts: water may reach some.
+void FlowEquation::fixGasEdge()
+{
+    if (!step_.gas) return;
+    gasLevel_ = 0;
+    double level = noLevel;
+    for (std::size_t p = 0; p < patches_.size(); ++p)
+    {
+        if (patches_[p].pressure == BoundaryPatch::Pressure::Natural) continue;
+        for (std::size_t k = 0; k < patches_[p].nodes.size(); ++k)
+            level = std::min(level, (*step_.patchValues)[p].pressure[k] - gasPressure(patches_[p].nodes[k]));
+    }
+    level = halo_.min(level);
+    gasLevel_ = level < noLevel ? level : 0;
+    bool any = false;
+    for (int i = 0; i < mesh_.nNodes; ++i)
+    {
+        system_.isPressureFixed[i] = isPatchPressureFixed_[i] || step_.gas->isEdge()[i];
+        any = any || (i < mesh_.nOwned && system_.isPressureFixed[i]);
+    }
+    system_.hasPressureLevel = halo_.any(any);
+}
+
+/// Terms of an open boundary on the faces between what is computed and what is left out.
+template<int D>
+void FlowEquation::assembleGasEdge()
+{
+    if (!step_.gas) return;
+    double first[D], second[D*D];
+    for (int k = 0; k < D; ++k) first[k] = 1./D;
+    for (int k = 0; k < D*D; ++k) second[k] = (k % (D + 1) == 0 ? 2. : 1.)/(D*(D + 1));
+    for (const InteriorFace& face : graph_.faces)
+    {
+        for (int side = 0; side < 2; ++side)
+        {
+            const int e = face.element[side], other = face.element[1 - side];
+            const bool isOut = step_.gas->isLeftOut(other) && step_.cover->state[other] == ElementState::Solid;
+            if (!isOut || step_.cover->state[e] == ElementState::Solid) continue;
+            int nodes[D], count = 0;
+            double v[D] = {}, pressure[D];
+            for (int a = 0; a <= D; ++a)
+            {
+                const int i = mesh_.elements[std::size_t(e)*(D + 1) + a];
+                if (i != face.opposite[side])
+                {
+                    pressure[count] = gasPressure(i);
+                    nodes[count++] = i;
+                }
+                else
+                    for (int d = 0; d < D; ++d) v[d] = -D*mesh_.volume[e]*mesh_.gradN[(std::size_t(e)*(D + 1) + a)*D + d];
+            }
+            addOpenFace<D>(nodes, v, first, second, pressure);
+        }
+    }
+}
+
+template void FlowEquation::assembleGasEdge<2>();
+template void FlowEquation::assembleGasEdge<3>();
 template void FlowEquation::assembleOpenBoundaries<2>();
 template void FlowEquation::assembleOpenBoundaries<3>();
 

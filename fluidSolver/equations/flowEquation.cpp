@@ -3,6 +3,7 @@
 
 #include "equations/elementAssembly.hpp"
 #include "equations/elementLoader.hpp"
+#include "equations/gasRegion.hpp"
 #include "equations/materials.hpp"
 
 #include <algorithm>
@@ -57,11 +58,13 @@ void FlowEquation::assemble(const FlowStepData& step)
     std::fill(system_.dualVolume.begin(), system_.dualVolume.end(), 0.0);
     if (step_.cover) system_.isActive = step_.cover->isActiveNode;
     else system_.isActive.assign(mesh_.nNodes, 1);
+    fixGasEdge();
     if (mesh_.dim == 2)
     {
         assembleElements<2>();
         removeMassDefect<2>();
         assembleOpenBoundaries<2>();
+        assembleGasEdge<2>();
         assembleWalls<2>();
         assembleGhosts<2>();
     }
@@ -70,6 +73,7 @@ void FlowEquation::assemble(const FlowStepData& step)
         assembleElements<3>();
         removeMassDefect<3>();
         assembleOpenBoundaries<3>();
+        assembleGasEdge<3>();
         assembleWalls<3>();
         assembleGhosts<3>();
     }
@@ -123,7 +127,7 @@ void FlowEquation::removeMassDefect()
 {
     for (int i = 0; i < mesh_.nOwned; ++i)
     {
-        if (!carriesMass_[i] || isOpen_[i]) continue;
+        if (!carriesMass_[i] || isOpen_[i] || (step_.gas && step_.gas->isEdge()[i])) continue;
         double* m = &system_.matrix.velocity[std::size_t(graph_.diagonal[i])*D*D];
         const double removed = std::min(defect_[i], 0.5*mass_[i]);
         for (int d = 0; d < D; ++d) m[d*D + d] -= removed;

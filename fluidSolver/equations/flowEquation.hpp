@@ -48,6 +48,9 @@ public:
     /// row contributions r_i of face nodes as (r_i - r_j)/(dim+2).
     void ghostFluxes(const std::vector<double>& x, std::vector<PairFlux>& result) const;
 
+    /// nNodes: by a patch, without the edge of the gas that is left out.
+    const std::vector<char>& isPatchPressureFixed() const { return isPatchPressureFixed_; }
+
     FlowSystem& system() { return system_; }
     const FlowSystem& system() const { return system_; }
 
@@ -58,6 +61,10 @@ private:
     template<int D> void assembleWalls();
     template<int D> void assembleGhosts();
     template<int D> void assembleOpenBoundaries();
+    template<int D> void addOpenFace(const int* nodes, const double* v, const double* first, const double* second, const double* pressure);
+    template<int D> void assembleGasEdge();
+    void fixGasEdge();
+    double gasPressure(int i) const;
     template<int D> void fineScaleT(const std::vector<double>&, std::vector<double>&) const;
     template<int D, class Element> bool loadElement(int e, Element& data) const
     {
@@ -78,6 +85,8 @@ private:
     NodalData nodal_;
     std::vector<double> defect_, mass_;         // owned nodes: see massDefect(); row sum of the inertia
     std::vector<char> carriesMass_, isOpen_;    // nodes of varying elements; nodes on open patches
+    std::vector<char> isPatchPressureFixed_;    // nNodes: by a patch
+    double gasLevel_ = 0;                       // of the gas at rest's pressure [Pa]
     std::vector<NodeConstraint> constraints_;   // all local nodes; directions from the slip patches
 };
 

@@ -12,12 +12,15 @@
 namespace flotsam
 {
 
+class GasRegion;
+
 /// Everything a step's assembly reads.
 struct FlowStepData
 {
     TimeScheme time;
     const FlowState* state = nullptr;           ///< t^n, t^(n-1); alpha already at t^(n+1)
     const Cover* cover = nullptr;               ///< null: no solids
+    const GasRegion* gas = nullptr;             ///< null: no gas is left out
     const std::vector<Solid>* solids = nullptr; ///< pose and motion at t^(n+1); free: predicted
     const std::vector<PatchValues>* patchValues = nullptr; ///< at t^(n+1)
     const DualCellTransport* transport = nullptr;           ///< its last fluxes carry the momentum; null: a rho does

@@ -27,6 +27,7 @@ Fluid::Fluid(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& f
     equation_(mesh, graph_, halo, fluid_, controls_, patches_), solver_(mesh, graph_, halo, controls_),
     transport_(mesh, graph_, halo, controls_)
 {
+    if (controls_.gasDepth > 0 && fluid_.isTwoPhase) gas_ = std::make_unique<GasRegion>(mesh, graph_, halo, controls_.gasDepth);
     if (!controls_.dualCellTransport) supg_ = std::make_unique<PhaseFieldSupg>(mesh, graph_, halo, controls_);
 }
 
@@ -74,7 +75,7 @@ const std::vector<double>& Fluid::halfStep(const std::vector<double>& now, const
 TransportReport Fluid::advancePhase(double dt)
 {
     const std::vector<double>& u = halfStep(state_.u, state_.uOld, dt, workU_);
-    const std::vector<char>& isFixed = equation_.system().isPressureFixed;
+    const std::vector<char>& isFixed = equation_.isPatchPressureFixed();
     // without u': beside the surface it is an error of first order in time that damps waves (docs/numerics.md, section 4)
     if (!supg_) return transport_.advance(state_.alpha, dt, u, {}, cover_, patches_, values_, isFixed, ghostFlux_);
     const std::vector<double>& fine = halfStep(state_.fineScale, state_.fineScaleOld, dt, workFine_);
@@ -136,17 +137,24 @@ void Fluid::extendPhase()
 
 void Fluid::assemble()
 {
+    const Cover* cover = cover_;
+    if (gas_)
+    {
+        geometryChanged_ = gas_->choose(state_.alpha, cover_) || geometryChanged_;
+        cover = &gas_->cover(cover_);
+    }
     std::vector<double> rho(mesh_.nNodes);
     for (int i = 0; i < mesh_.nNodes; ++i) rho[i] = density(fluid_, controls_, fluid_.isTwoPhase ? state_.alpha[i] : 1);
     const bool isBalanced = fluid_.isTwoPhase && controls_.balancedGravity;
     if (isBalanced)
         propagateInterfacePlanes(mesh_, graph_, halo_, state_.alpha, transport_.width(), controls_.gravityLayers, planes_, cover_);
-    gravityForce(mesh_, fluid_.gravity, rho, isBalanced ? &planes_ : nullptr, cover_, force_);
+    gravityForce(mesh_, fluid_.gravity, rho, isBalanced ? &planes_ : nullptr, cover, force_);
 
     FlowStepData step;
     step.time = time_;
     step.state = &state_;
-    step.cover = cover_;
+    step.cover = cover;
+    step.gas = gas_.get();
     step.solids = solids_;
     step.patchValues = &values_;
     step.elementForce = &force_;
@@ -268,6 +276,12 @@ void Fluid::rejectStep()
     state_.alphaOlder = before_.alphaOlder;
     setKeptLiquid(liquidBefore_);
     solver_.forgetPreconditioner(); // what failed may have been its
+}
+
+void Fluid::forgetPreconditioner()
+{
+    solver_.forgetPreconditioner();
+    if (gas_) gas_->forget();
 }
 
 bool Fluid::isFinite() const

@@ -10,6 +10,7 @@
 #include "algebra/flowLinearSolver.hpp"
 #include "equations/dualCellTransport.hpp"
 #include "equations/flowEquation.hpp"
+#include "equations/gasRegion.hpp"
 #include "equations/interfacePlanes.hpp"
 #include "equations/phaseFieldSupg.hpp"
 
@@ -65,7 +66,7 @@ public:
     double keptLiquid() const { return supg_ ? supg_->liquidVolume() : transport_.liquidVolume(); }
     void setKeptLiquid(double volume);
     /// After the state has been written: a run that goes on from it starts with a new preconditioner, this one likewise, and both stay the same.
-    void forgetPreconditioner() { solver_.forgetPreconditioner(); }
+    void forgetPreconditioner();
     /// Ghost-penalty fluxes of the last accepted solve as {a, b, flux} triples (part of the state of a run with solids).
     std::vector<double> ghostFluxes() const;
     void setGhostFluxes(const std::vector<double>& triples);
@@ -94,6 +95,7 @@ private:
     std::unique_ptr<PhaseFieldSupg> supg_;  // the paper's form, when selected
     InterfacePlanes planes_;
     const Cover* cover_ = nullptr;
+    std::unique_ptr<GasRegion> gas_;    // when gas far from the water is left out
     const std::vector<Solid>* solids_ = nullptr;
     TimeScheme time_;
     std::vector<double> force_;         // nElements*dim

@@ -49,6 +49,7 @@ int DualCellTransport::elementLevel(int e) const
     return level;
 }
 
+/// Fluxes of all elements: their sums at the nodes, and those of the elements that alpha varies in, which are stored.
 template<int dim>
 void DualCellTransport::sumElementRates(const Arguments& in)
 {
@@ -56,6 +57,12 @@ void DualCellTransport::sumElementRates(const Arguments& in)
     constexpr int n = dim + 1;
     std::fill(inflow_.begin(), inflow_.end(), 0.);
     std::fill(outflow_.begin(), outflow_.end(), 0.);
+    std::fill(rest_.begin(), rest_.end(), 0.);
+    for (int e : stored_) storedAt_[e] = -1;
+    stored_.clear();
+    for (int e = 0; e < mesh_.nInnerElements; ++e) if (!isBulk(e)) stored_.push_back(e);
+    flux_.resize(stored_.size()*Pairs::count);
+    std::size_t position = 0;
     for (int e = 0; e < mesh_.nInnerElements; ++e)
     {
         double flux[Pairs::count], into[n] = {}, outOf[n] = {};
@@ -68,16 +75,18 @@ void DualCellTransport::sumElementRates(const Arguments& in)
             into[Pairs::first[p]] += backward;
             outOf[Pairs::second[p]] += backward;
         }
+        const bool isStored = position < stored_.size() && stored_[position] == e;
         const int* nodes = &mesh_.elements[std::size_t(e)*n];
         for (int a = 0; a < n; ++a)
         {
             inflow_[nodes[a]] += into[a];
             outflow_[nodes[a]] += outOf[a];
+            if (!isStored) rest_[nodes[a]] += into[a] - outOf[a];
         }
-    }
-    for (int i = 0; i < mesh_.nOwned; ++i)
-    {
-        rest_[i] = inflow_[i] - outflow_[i];
+        if (!isStored) continue;
+        storedAt_[e] = static_cast<int>(position);
+        std::copy(flux, flux + Pairs::count, &flux_[position*Pairs::count]);
+        ++position;
     }
 }
 
@@ -136,45 +145,63 @@ void DualCellTransport::findNodeLevels(const Arguments& in)
             steppedPairs_.push_back(int(k));
         }
     }
+    const auto levelOf = [&](int k) { return std::max(level_[in.pairFlux[k].a], level_[in.pairFlux[k].b]); };
+    std::stable_sort(steppedPairs_.begin(), steppedPairs_.end(), [&](int a, int b) { return levelOf(a) > levelOf(b); });
 }
 
+/// Elements of higher levels exchange several times, and alpha may begin to vary in them on the way: they are stored as well.
 template<int dim>
-void DualCellTransport::storeElement(const Arguments& in, std::size_t position, int e)
+void DualCellTransport::storeSteppedBulk(const Arguments& in)
 {
     using Pairs = CornerPairs<dim>;
-    stored_[position] = e;
-    storedAt_[e] = static_cast<int>(position);
-    double* flux = &flux_[position*Pairs::count];
-    volumeFlux_.ofElement<dim>(e, in.u, in.fineScale, in.cover, flux);
-    const int* nodes = &mesh_.elements[std::size_t(e)*(dim + 1)];
-    for (int p = 0; p < Pairs::count; ++p)
+    for (int e = 0; e < mesh_.nInnerElements; ++e)
     {
-        rest_[nodes[Pairs::first[p]]] += flux[p];
-        rest_[nodes[Pairs::second[p]]] -= flux[p];
+        if (storedAt_[e] >= 0 || elementLevel(e) == 0)
+        {
+            continue;
+        }
+        storedAt_[e] = static_cast<int>(stored_.size());
+        stored_.push_back(e);
+        flux_.resize(flux_.size() + Pairs::count);
+        double* flux = &flux_[flux_.size() - Pairs::count];
+        volumeFlux_.ofElement<dim>(e, in.u, in.fineScale, in.cover, flux);
+        const int* nodes = &mesh_.elements[std::size_t(e)*(dim + 1)];
+        for (int p = 0; p < Pairs::count; ++p)
+        {
+            rest_[nodes[Pairs::first[p]]] += flux[p];
+            rest_[nodes[Pairs::second[p]]] -= flux[p];
+        }
     }
 }
 
-template<int dim>
-void DualCellTransport::sortElements(const Arguments& in)
+/// Positions of the stored elements by level.
+void DualCellTransport::sortElements()
 {
-    storedStart_.assign(largestLevel_ + 2, 0);
-    const auto levelOf = [this](int e) { return largestLevel_ > 0 ? elementLevel(e) : 0; };
-    for (int e = 0; e < mesh_.nInnerElements; ++e)
+    std::vector<int> level(stored_.size(), 0);
+    levelStart_.assign(largestLevel_ + 2, 0);
+    for (std::size_t k = 0; k < stored_.size(); ++k)
     {
-        const int level = levelOf(e);
-        storedStart_[level + 1] += level > 0 || !isBulk(e);
+        if (largestLevel_ > 0)
+        {
+            level[k] = elementLevel(stored_[k]);
+        }
+        ++levelStart_[level[k] + 1];
     }
     for (int l = 0; l <= largestLevel_; ++l)
     {
-        storedStart_[l + 1] += storedStart_[l];
+        levelStart_[l + 1] += levelStart_[l];
     }
-    for (int e : stored_)
+    byLevel_.resize(stored_.size());
+    std::vector<std::size_t> next(levelStart_.begin(), levelStart_.end() - 1);
+    for (std::size_t k = 0; k < stored_.size(); ++k)
     {
-        storedAt_[e] = -1;
+        byLevel_[next[level[k]]++] = static_cast<int>(k);
     }
-    stored_.resize(storedStart_.back());
-    liquidFlux_.assign(stored_.size()*CornerPairs<dim>::count, 0.);
-    flux_.resize(stored_.size()*CornerPairs<dim>::count);
+}
+
+void DualCellTransport::findMeetingNodes()
+{
+    const int n = mesh_.dim + 1;
     for (const std::vector<int>& nodes : meeting_)
     {
         for (int i : nodes)
@@ -183,17 +210,15 @@ void DualCellTransport::sortElements(const Arguments& in)
         }
     }
     meeting_.assign(largestLevel_ + 1, {});
-    std::vector<std::size_t> next(storedStart_.begin(), storedStart_.end() - 1);
-    for (int e = 0; e < mesh_.nInnerElements; ++e)
+    for (int l = 1; l <= largestLevel_; ++l)
     {
-        const int level = levelOf(e);
-        if (level > 0 || !isBulk(e))
+        for (std::size_t k = levelStart_[l]; k < levelStart_[l + 1]; ++k)
         {
-            storeElement<dim>(in, next[level]++, e);
-            for (int a = 0; a <= dim && level > 0; ++a)
+            const int* nodes = &mesh_.elements[std::size_t(stored_[byLevel_[k]])*n];
+            for (int a = 0; a < n; ++a)
             {
-                const int i = mesh_.elements[std::size_t(e)*(dim + 1) + a];
-                if (level_[i] < level && !isMeeting_[i])
+                const int i = nodes[a];
+                if (level_[i] < l && !isMeeting_[i])
                 {
                     isMeeting_[i] = 1;
                     meeting_[level_[i]].push_back(i);
@@ -210,7 +235,13 @@ void DualCellTransport::findLevels(const Arguments& in)
     sumElementRates<dim>(in);
     sumOtherRates(in);
     findNodeLevels(in);
-    sortElements<dim>(in);
+    if (largestLevel_ > 0)
+    {
+        storeSteppedBulk<dim>(in);
+    }
+    liquidFlux_.assign(flux_.size(), 0.);
+    sortElements();
+    findMeetingNodes();
 }
 
 DualCellTransport::Part DualCellTransport::partAt(int index) const

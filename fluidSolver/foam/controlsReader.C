@@ -49,6 +49,7 @@ const std::vector<ControlEntry>& controlsTable()
         {"densityClip", &N::densityClip, {0, 0.2}, "phase values this near to 0 and 1 count as pure fluid in density and viscosity"},
         {"balancedGravity", &N::balancedGravity, anyValue, "on: gravity exactly balanced at rest; off: element mean density"},
         {"gravityLayers", &N::gravityLayers, {0, 100}, "rings of elements over which interface planes are handed on"},
+        {"gasDepth", &N::gasDepth, {0, 1000}, "rings of elements around the water in which the gas is computed; 0: everywhere"},
         {"tolerance", &N::tolerance, {0, 0.1, true}, "relative residual of the linear solve"},
         {"maxIterations", &N::maxIterations, {1, 100000}, "of the linear solve; a step that needs more is repeated smaller"},
         {"restart", &N::restart, {2, 1000}, "Krylov vectors kept"},
