@@ -11,6 +11,7 @@ namespace
 {
 
 constexpr double singleReduction = 3e-6;    // smaller ones of the residual need a basis in double precision
+constexpr double roundOff = 1e-14;          // of the residual at the start: no reduction goes further (a right-hand side of zero has the target 0)
 constexpr int keptVectors = 8;              // preconditioned ones
 constexpr double cancellation = 0.1;        // of a vector by projection: below, rounding would leave it oblique
 constexpr std::size_t chunk = 512;          // entries that are worked on together, in the fastest cache
@@ -167,6 +168,7 @@ Gmres::Result Gmres::solve(std::vector<double>& x, std::vector<double>& q, std::
     hessenberg_.resize(std::size_t(restart_)*(restart_ + 1));
     cosine_.resize(restart_);
     sine_.resize(restart_);
+    target = std::max(target, roundOff*first);
     const bool isSingle = target >= singleReduction*first;
     while (result.iterations < maxIterations)
     {

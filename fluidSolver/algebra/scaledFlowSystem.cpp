@@ -11,13 +11,13 @@ namespace
 {
 
 template<int D>
-void invert(const double* a, double ghost, double* inverse)
+void invert(const double* a, double ghost, float* inverse)
 {
     Eigen::Matrix<double, D, D, Eigen::RowMajor> m;
     for (int r = 0; r < D; ++r)
         for (int c = 0; c < D; ++c) m(r, c) = a[r*D + c] + (r == c ? ghost : 0);
-    Eigen::Map<Eigen::Matrix<double, D, D, Eigen::RowMajor>> result(inverse);
-    result = m.inverse();
+    Eigen::Map<Eigen::Matrix<float, D, D, Eigen::RowMajor>> result(inverse);
+    result = m.inverse().template cast<float>();
 }
 
 } // namespace
@@ -62,11 +62,11 @@ void ScaledFlowSystem::setDiagonals()
         }
     for (int i = 0; i < mesh_.nOwned; ++i)
     {
-        double* inverse = &velocityInverse_[std::size_t(i)*D*D];
+        float* inverse = &velocityInverse_[std::size_t(i)*D*D];
         double* s = &scale_[std::size_t(i)*B_];
         if (!system_->isActive[i])
         {
-            std::fill(inverse, inverse + D*D, 0.0);
+            std::fill(inverse, inverse + D*D, 0.0f);
             std::fill(s, s + B_, 1.0);
             viscousPressure_[i] = 0;
             continue;
@@ -77,7 +77,7 @@ void ScaledFlowSystem::setDiagonals()
         invert<D>(a, ghost[i], inverse);
         std::fill(s, s + D, 1/std::sqrt(trace/D));
         // PSPG and ghost terms act beside the viscous part and bound its inverse where the fluid part is a sliver
-        viscousPressure_[i] = 1/(system_->pressureMass[i] + system_->matrix.pressure[graph_.diagonal[i]] + ghostPressure[i]);
+        viscousPressure_[i] = float(1/(system_->pressureMass[i] + system_->matrix.pressure[graph_.diagonal[i]] + ghostPressure[i]));
         s[D] = 1/std::sqrt(schurDiagonal(*system_, graph_, i) + ghostPressure[i]);
     }
 }
@@ -127,7 +127,7 @@ void ScaledFlowSystem::startVelocity(const Real* r)
     constexpr int B = D + 1;
     for (int i = 0; i < mesh_.nOwned; ++i)
     {
-        const double* m = &velocityInverse_[std::size_t(i)*D*D];
+        const float* m = &velocityInverse_[std::size_t(i)*D*D];
         const Real* ri = r + std::size_t(i)*B;
         const double unscaled = 1/scale_[std::size_t(i)*B]; // one for the node's velocity
         double* z = &local_[std::size_t(i)*B];
@@ -166,7 +166,7 @@ void ScaledFlowSystem::correctVelocity()
     constexpr int B = D + 1;
     for (int i = 0; i < mesh_.nOwned; ++i)
     {
-        const double* m = &velocityInverse_[std::size_t(i)*D*D];
+        const float* m = &velocityInverse_[std::size_t(i)*D*D];
         const double* g = &gradient_[std::size_t(i)*D];
         double* z = &local_[std::size_t(i)*B];
         for (int a = 0; a < D; ++a)

@@ -54,8 +54,8 @@ private:
 
     double fluidVolume_ = 0;                // of all active nodes; only without a pressure level
     std::vector<double> scale_;             // nOwned*B: 1/sqrt(diagonal)
-    std::vector<double> velocityInverse_;   // nOwned*dim*dim
-    std::vector<double> viscousPressure_;   // nOwned: inverse of the viscous part of the Schur complement, lumped
+    std::vector<float> velocityInverse_;    // nOwned*dim*dim; only preconditions, like the next
+    std::vector<float> viscousPressure_;    // nOwned: inverse of the viscous part of the Schur complement, lumped
     std::vector<double> local_;             // work: nNodes*B, unscaled
     std::vector<double> pressureRows_, gradient_; // work: nOwned, nOwned*dim
     std::vector<double> pressureLocal_;     // work: nNodes
