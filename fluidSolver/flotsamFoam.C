@@ -91,7 +91,7 @@ StepResult advance(CoupledStep& step, const TimeControls& time, double& dt, RunO
     }
 }
 
-void run(Foam::Time& runTime, const Foam::fvMesh& mesh, bool isDryRun)
+void run(Foam::Time& runTime, Foam::fvMesh& mesh, bool isDryRun)
 {
     PetscSession petsc(MPI_COMM_WORLD);
     const CaseControls controls = readCaseControls(runTime);
@@ -123,6 +123,8 @@ void run(Foam::Time& runTime, const Foam::fvMesh& mesh, bool isDryRun)
         step.start(std::move(start), true);
     }
     output.begin(step);
+    mesh.primitiveMesh::clearGeom();        // what only the start needed
+    mesh.primitiveMesh::clearAddressing();
     installStopSignals();
 
     double dt = output.timeStep() > 0 ? output.timeStep() : std::min(runTime.deltaTValue(), controls.time.maxDeltaT)/growthLimit;

@@ -26,8 +26,9 @@ CouplingControls couplingControls(const FluidProperties& fluid, const NumericsCo
 CoupledStep::CoupledStep(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& fluid, const NumericsControls& controls,
     const std::vector<BoundaryPatch>& patches, Scene scene, const DemSetup* dem, PhaseTimers& timers)
 :   mesh_(mesh), halo_(halo), controls_(controls), timers_(timers), fluid_(mesh, halo, fluid, controls, patches),
-    builder_(mesh, fluid_.graph(), halo), scene_(std::move(scene))
+    scene_(std::move(scene))
 {
+    if (!scene_.isEmpty()) builder_ = std::make_unique<CoverBuilder>(mesh, fluid_.graph(), halo);
     if (dem) coupling_ = std::make_unique<BodyCoupling>(*dem, couplingControls(fluid, controls), halo.comm());
 }
 
@@ -35,7 +36,7 @@ void CoupledStep::cut(bool hasChanged)
 {
     if (scene_.isEmpty()) return;
     PhaseTimer t(timers_, Phase::Cut);
-    const Cover& cover = builder_.buildExactVolume(scene_.solids());
+    const Cover& cover = builder_->buildExactVolume(scene_.solids());
     fluid_.setGeometry(&cover, &scene_.solids(), hasChanged);
 }
 
@@ -124,7 +125,7 @@ double CoupledStep::bodyCourantRate() const
     const double speed = scene_.largestSpeed();
     if (speed == 0) return 0;
     double h = 1e300;
-    for (const CutElement& c : builder_.cover().cuts) h = std::min(h, mesh_.h[c.element]);
+    for (const CutElement& c : builder_->cover().cuts) h = std::min(h, mesh_.h[c.element]);
     h = halo_.min(h);
     return h < 1e300 ? speed/h : 0;
 }
@@ -202,7 +203,7 @@ void CoupledStep::restore(FlowState state, const std::map<std::string, std::vect
         for (int d = 0; d < 3; ++d) { loads_[s].force[d] = loads[6*s + d]; loads_[s].moment[d] = loads[6*s + 3 + d]; }
     if (coupling_) coupling_->restore(array("bodies"));
     // the geometry of the stored state exactly: same poses and offsets, no further volume correction
-    const Cover& cover = builder_.build(scene_.solids());
+    const Cover& cover = builder_->build(scene_.solids());
     fluid_.setGeometry(&cover, &scene_.solids(), false);
     wet_ = fluid_.wetFractions();
 }

@@ -43,7 +43,7 @@ public:
     const Fluid& fluid() const { return fluid_; }
     const Scene& scene() const { return scene_; }
     const BodyCoupling* coupling() const { return coupling_.get(); }
-    const Cover* cover() const { return scene_.isEmpty() ? nullptr : &builder_.cover(); }
+    const Cover* cover() const { return scene_.isEmpty() ? nullptr : &builder_->cover(); }
 
     /// Largest surface speed of the solids over the smallest cut element [1/s]; 0 without moving solids. Collective.
     double bodyCourantRate() const;
@@ -65,8 +65,8 @@ private:
     NumericsControls controls_;
     PhaseTimers& timers_;
     Fluid fluid_;
-    CoverBuilder builder_;
     Scene scene_;
+    std::unique_ptr<CoverBuilder> builder_; // null without solids
     std::unique_ptr<BodyCoupling> coupling_;
     std::vector<Fluid::SolidLoad> loads_;   // fluid loads of the last solve
     std::vector<double> wet_;

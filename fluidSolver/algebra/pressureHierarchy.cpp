@@ -46,7 +46,10 @@ void PressureHierarchy::createMatrix(const FlowSystem& system)
         if (b < n) count(b, a);
     }
     MatDestroy(&matrix_);
-    check(MatCreateAIJ(halo_.comm(), n, n, PETSC_DETERMINE, PETSC_DETERMINE, 0, diagonal.data(), 0, offDiagonal.data(), &matrix_));
+    check(MatCreate(halo_.comm(), &matrix_));
+    check(MatSetSizes(matrix_, n, n, PETSC_DETERMINE, PETSC_DETERMINE));
+    check(MatSetType(matrix_, MATHYPRE)); // PETSc's own format would be copied
+    check(MatHYPRESetPreallocation(matrix_, 0, diagonal.data(), 0, offDiagonal.data()));
 }
 
 void PressureHierarchy::addGhosts(const FlowSystem& system)

@@ -11,13 +11,13 @@ namespace
 {
 
 template<int D>
-void invert(const double* a, double ghost, double* inverse)
+void invert(const double* a, double ghost, float* inverse)
 {
     Eigen::Matrix<double, D, D, Eigen::RowMajor> m;
     for (int r = 0; r < D; ++r)
         for (int c = 0; c < D; ++c) m(r, c) = a[r*D + c] + (r == c ? ghost : 0);
-    Eigen::Map<Eigen::Matrix<double, D, D, Eigen::RowMajor>> result(inverse);
-    result = m.inverse();
+    Eigen::Map<Eigen::Matrix<float, D, D, Eigen::RowMajor>> result(inverse);
+    result = m.inverse().template cast<float>();
 }
 
 } // namespace
@@ -62,11 +62,11 @@ void ScaledFlowSystem::setDiagonals()
         }
     for (int i = 0; i < mesh_.nOwned; ++i)
     {
-        double* inverse = &velocityInverse_[std::size_t(i)*D*D];
+        float* inverse = &velocityInverse_[std::size_t(i)*D*D];
         double* s = &scale_[std::size_t(i)*B_];
         if (!system_->isActive[i])
         {
-            std::fill(inverse, inverse + D*D, 0.0);
+            std::fill(inverse, inverse + D*D, 0.0f);
             std::fill(s, s + B_, 1.0);
             viscousPressure_[i] = 0;
             continue;
@@ -77,7 +77,7 @@ void ScaledFlowSystem::setDiagonals()
         invert<D>(a, ghost[i], inverse);
         std::fill(s, s + D, 1/std::sqrt(trace/D));
         // PSPG and ghost terms act beside the viscous part and bound its inverse where the fluid part is a sliver
-        viscousPressure_[i] = 1/(system_->pressureMass[i] + system_->matrix.pressure[graph_.diagonal[i]] + ghostPressure[i]);
+        viscousPressure_[i] = float(1/(system_->pressureMass[i] + system_->matrix.pressure[graph_.diagonal[i]] + ghostPressure[i]));
         s[D] = 1/std::sqrt(schurDiagonal(*system_, graph_, i) + ghostPressure[i]);
     }
 }
@@ -120,23 +120,15 @@ void ScaledFlowSystem::finishProduct(const FlowOperator& op, double* y, const do
     solids_.writeRows(qRows_, y + n);
 }
 
-void ScaledFlowSystem::multiply(const double* x, double* y)
-{
-    const std::size_t n = std::size_t(mesh_.nOwned)*B_;
-    for (std::size_t i = 0; i < n; ++i) local_[i] = x[i]*scale_[i];
-    solids_.readVelocity(x + n, q_);
-    finishProduct(product(), y, nullptr);
-}
-
 /// Velocity by its diagonal blocks, into local_.
-template<int D>
-void ScaledFlowSystem::startVelocity(const double* r)
+template<int D, class Real>
+void ScaledFlowSystem::startVelocity(const Real* r)
 {
     constexpr int B = D + 1;
     for (int i = 0; i < mesh_.nOwned; ++i)
     {
-        const double* m = &velocityInverse_[std::size_t(i)*D*D];
-        const double* ri = r + std::size_t(i)*B;
+        const float* m = &velocityInverse_[std::size_t(i)*D*D];
+        const Real* ri = r + std::size_t(i)*B;
         const double unscaled = 1/scale_[std::size_t(i)*B]; // one for the node's velocity
         double* z = &local_[std::size_t(i)*B];
         for (int a = 0; a < D; ++a)
@@ -150,7 +142,8 @@ void ScaledFlowSystem::startVelocity(const double* r)
 }
 
 /// pressureLocal_ = S^-1 (r_p - D z_u), z_u in local_ and q_.
-void ScaledFlowSystem::solvePressure(const double* r)
+template<class Real>
+void ScaledFlowSystem::solvePressure(const Real* r)
 {
     const FlowSystem& s = *system_;
     product().divergence(local_.data(), solids_.isEmpty() ? nullptr : q_.data(), pressureRows_.data());
@@ -173,7 +166,7 @@ void ScaledFlowSystem::correctVelocity()
     constexpr int B = D + 1;
     for (int i = 0; i < mesh_.nOwned; ++i)
     {
-        const double* m = &velocityInverse_[std::size_t(i)*D*D];
+        const float* m = &velocityInverse_[std::size_t(i)*D*D];
         const double* g = &gradient_[std::size_t(i)*D];
         double* z = &local_[std::size_t(i)*B];
         for (int a = 0; a < D; ++a)
@@ -187,7 +180,8 @@ void ScaledFlowSystem::correctVelocity()
 }
 
 /// local_ (owned nodes), q_ = preconditioner times r, without the scaling of the columns; gradient_ is that of its pressure.
-void ScaledFlowSystem::preconditionUnscaled(const double* r)
+template<class Real>
+void ScaledFlowSystem::preconditionUnscaled(const Real* r)
 {
     const FlowOperator op = product();
     if (mesh_.dim == 2) startVelocity<2>(r); else startVelocity<3>(r);
@@ -195,7 +189,8 @@ void ScaledFlowSystem::preconditionUnscaled(const double* r)
     halo_.update(local_.data(), B_);
     if (!solids_.isEmpty())
     {
-        solids_.readRows(r + std::size_t(mesh_.nOwned)*B_, qRows_);
+        const Real* rows = r + std::size_t(mesh_.nOwned)*B_;
+        solids_.readRows(std::vector<double>(rows, rows + solids_.nLocalEntries()).data(), qRows_);
         solids_.solve(qRows_, q_);
     }
     solvePressure(r);
@@ -208,17 +203,26 @@ void ScaledFlowSystem::preconditionUnscaled(const double* r)
     for (std::size_t k = 0; k < q_.size(); ++k) q_[k] -= qWork_[k];
 }
 
-void ScaledFlowSystem::precondition(const double* r, double* z)
+/// (local_, q_) as a vector.
+void ScaledFlowSystem::copySolution(double* z) const
 {
     const std::size_t n = std::size_t(mesh_.nOwned)*B_;
-    preconditionUnscaled(r);
-    for (std::size_t i = 0; i < n; ++i) z[i] = local_[i]/scale_[i];
+    std::copy(local_.begin(), local_.begin() + n, z);
     solids_.writeVelocity(q_, z + n);
 }
 
-void ScaledFlowSystem::multiplyPreconditioned(const double* r, double* y)
+template<class Real>
+void ScaledFlowSystem::precondition(const Real* r, double* z)
 {
     preconditionUnscaled(r);
+    copySolution(z);
+}
+
+template<class Real>
+void ScaledFlowSystem::multiplyPreconditioned(const Real* r, double* y, double* z)
+{
+    preconditionUnscaled(r);
+    if (z) copySolution(z);
     finishProduct(product(), y, gradient_.data());
 }
 
@@ -264,15 +268,20 @@ double ScaledFlowSystem::residual(const std::vector<double>& x, const std::vecto
     return std::sqrt(halo_.sum(square));
 }
 
-void ScaledFlowSystem::addTo(std::vector<double>& x, std::vector<double>& q, const double* solution)
+void ScaledFlowSystem::addTo(std::vector<double>& x, std::vector<double>& q, const double* z)
 {
     const std::size_t n = std::size_t(mesh_.nOwned)*B_;
     const int nd = system_->nDof;
-    for (std::size_t i = 0; i < n; ++i) x[i] += solution[i]*scale_[i];
-    solids_.readVelocity(solution + n, q_);
+    for (std::size_t i = 0; i < n; ++i) x[i] += z[i];
+    solids_.readVelocity(z + n, q_);
     for (int s : solids_.free())
         for (int d = 0; d < nd; ++d) q[s*nd + d] += q_[s*nd + d];
     halo_.update(x.data(), B_);
 }
+
+template void ScaledFlowSystem::precondition(const float*, double*);
+template void ScaledFlowSystem::precondition(const double*, double*);
+template void ScaledFlowSystem::multiplyPreconditioned(const float*, double*, double*);
+template void ScaledFlowSystem::multiplyPreconditioned(const double*, double*, double*);
 
 } // namespace flotsam

@@ -19,25 +19,26 @@ public:
     void set(const FlowSystem& system);
 
     int nEntries() const { return mesh_.nOwned*B_ + solids_.nLocalEntries(); }
-    void multiply(const double* x, double* y);
-    void precondition(const double* r, double* z);
-    /// y = matrix times preconditioner times r.
-    void multiplyPreconditioned(const double* r, double* y);
+    /// z = preconditioner times r, without the scaling of the columns: what addTo() takes.
+    template<class Real> void precondition(const Real* r, double* z);
+    /// y = matrix times preconditioner times r; also z, where it is not null.
+    template<class Real> void multiplyPreconditioned(const Real* r, double* y, double* z);
 
     /// Scaled residual r of (x: nNodes*(dim+1) with its halo up to date, q: nDof per solid); returns the norm of the scaled right-hand side.
     double residual(const std::vector<double>& x, const std::vector<double>& q, double* r);
-    /// Adds a scaled solution to x and q; the halo of x is updated.
-    void addTo(std::vector<double>& x, std::vector<double>& q, const double* solution);
+    /// Adds what precondition() gave to x and q; the halo of x is updated.
+    void addTo(std::vector<double>& x, std::vector<double>& q, const double* z);
 
     PressureHierarchy& pressure() { return pressure_; }
 
 private:
     template<int D> void setDiagonals();
-    template<int D> void startVelocity(const double* r);
+    template<int D, class Real> void startVelocity(const Real* r);
     template<int D> void correctVelocity();
-    void solvePressure(const double* r);
+    template<class Real> void solvePressure(const Real* r);
     void addPressureSources(double* r) const;
-    void preconditionUnscaled(const double* r);
+    template<class Real> void preconditionUnscaled(const Real* r);
+    void copySolution(double* z) const;
     void finishProduct(const FlowOperator& op, double* y, const double* ofPressure);
     void balanceContinuity(double* y) const;
     void removeMean(std::vector<double>& p) const;
@@ -53,8 +54,8 @@ private:
 
     double fluidVolume_ = 0;                // of all active nodes; only without a pressure level
     std::vector<double> scale_;             // nOwned*B: 1/sqrt(diagonal)
-    std::vector<double> velocityInverse_;   // nOwned*dim*dim
-    std::vector<double> viscousPressure_;   // nOwned: inverse of the viscous part of the Schur complement, lumped
+    std::vector<float> velocityInverse_;    // nOwned*dim*dim; only preconditions, like the next
+    std::vector<float> viscousPressure_;    // nOwned: inverse of the viscous part of the Schur complement, lumped
     std::vector<double> local_;             // work: nNodes*B, unscaled
     std::vector<double> pressureRows_, gradient_; // work: nOwned, nOwned*dim
     std::vector<double> pressureLocal_;     // work: nNodes

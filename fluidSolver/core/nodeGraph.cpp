@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <stdexcept>
 #include <utility>
 
 namespace flotsam
@@ -59,14 +61,21 @@ void listNeighbours(const SimplexMesh& mesh, NodeGraph& graph)
     }
 }
 
-void listSlots(const SimplexMesh& mesh, NodeGraph& graph)
+void listOffsets(const SimplexMesh& mesh, NodeGraph& graph)
 {
     const int n = mesh.dim + 1;
-    graph.slot.assign(static_cast<std::size_t>(mesh.nInnerElements) * n * n, -1);
+    for (int i = 0; i < mesh.nOwned; ++i)
+    {
+        if (graph.rowStart[i + 1] - graph.rowStart[i] > std::numeric_limits<std::int16_t>::max())
+        {
+            throw std::runtime_error("a mesh point has more neighbours than fit into 16 bits");
+        }
+    }
+    graph.offset.assign(static_cast<std::size_t>(mesh.nInnerElements) * n * n, -1);
     for (int e = 0; e < mesh.nInnerElements; ++e)
     {
         const int* nodes = &mesh.elements[static_cast<std::size_t>(e) * n];
-        int* slot = &graph.slot[static_cast<std::size_t>(e) * n * n];
+        std::int16_t* offset = &graph.offset[static_cast<std::size_t>(e) * n * n];
         for (int a = 0; a < n; ++a)
         {
             if (nodes[a] >= mesh.nOwned)
@@ -77,7 +86,7 @@ void listSlots(const SimplexMesh& mesh, NodeGraph& graph)
             const auto last = graph.column.begin() + graph.rowStart[nodes[a] + 1];
             for (int b = 0; b < n; ++b)
             {
-                slot[a * n + b] = static_cast<int>(std::lower_bound(first, last, nodes[b]) - graph.column.begin());
+                offset[a * n + b] = static_cast<std::int16_t>(std::lower_bound(first, last, nodes[b]) - first);
             }
         }
     }
@@ -185,7 +194,7 @@ NodeGraph::NodeGraph(const SimplexMesh& mesh)
 {
     listElementsOfNodes(mesh, nodeElementStart, nodeElement);
     listNeighbours(mesh, *this);
-    listSlots(mesh, *this);
+    listOffsets(mesh, *this);
     listFaces(mesh, faces);
 }
 

@@ -20,13 +20,16 @@ struct NodeGraph
     std::vector<int> rowStart;      ///< nOwned+1
     std::vector<int> column;        ///< local node numbers
     std::vector<int> diagonal;      ///< nOwned: position of (i,i) in column
-    std::vector<int> slot;          ///< nInnerElements*(dim+1)^2: position of (a,b) in column, -1 if node a is not owned
+    std::vector<std::int16_t> offset;   ///< nInnerElements*(dim+1)^2: place of corner b in the row of corner a, -1 if a is not owned
 
     // all local nodes
     std::vector<int> nodeElementStart, nodeElement; ///< elements of each local node (complete for owned and first-ring nodes)
     std::vector<InteriorFace> faces;                ///< faces shared by two local elements
 
     explicit NodeGraph(const SimplexMesh& mesh);
+
+    /// Position in `column` of offset k = (e*(dim+1) + a)*(dim+1) + b, i the node of corner a; -1 if i is not owned.
+    int slot(int i, std::size_t k) const { return offset[k] < 0 ? -1 : rowStart[i] + offset[k]; }
 
     /// Position in `column` of the neighbour j of owned node i, -1 if they share no element.
     int find(int i, int j) const;

@@ -115,7 +115,9 @@ void FlowEquation::assembleElements()
             carriesMass_[i] |= data.isVarying;
             system_.pressureMass[i] += data.first[a]/(data.mu + data.tauCont);
         }
-        addElement(data, &graph_.slot[std::size_t(e)*N*N], system_);
+        int slot[N*N];
+        for (int k = 0; k < N*N; ++k) slot[k] = graph_.slot(nodes[k/N], std::size_t(e)*N*N + k);
+        addElement(data, slot, system_);
     }
     for (int i = 0; i < mesh_.nOwned; ++i) startRow(i, isStarted);
 }

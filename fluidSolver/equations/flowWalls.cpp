@@ -175,7 +175,7 @@ void FlowEquation::assembleWalls()
                     wallBlock<D>(c, group.normal, data.gradN, group.m1[a], group.m1[b], m2, a, b, m);
                     if (isInner && nodes[a] < mesh_.nOwned)
                     {
-                        const std::size_t entry = graph_.slot[(std::size_t(group.element)*N + a)*N + b];
+                        const std::size_t entry = graph_.slot(nodes[a], (std::size_t(group.element)*N + a)*N + b);
                         system_.matrix.add<D>(entry, m);
                         for (int k = 0; k < D; ++k) system_.matrix.velocity[entry*D*D + k*D + k] += c.convection*m2;
                         double* column = &coupling.column[std::size_t(place[a])*B*nDof];

@@ -132,7 +132,7 @@ void PhaseFieldSupg::assemble(const std::vector<double>& alpha, const TimeLevels
                     stiffness += g[a*dim + d]*g[b*dim + d];
                 }
                 const double inertia = mass[a][b] + tau*along[a]*first[b];
-                matrix_[graph_.slot[(std::size_t(e)*n + a)*n + b]] += levels.c0*inertia + advection
+                matrix_[graph_.slot(i, (std::size_t(e)*n + a)*n + b)] += levels.c0*inertia + advection
                     + tau*volume*along[a]*along[b] + diffusion*stiffness;
                 rhs_[i] -= inertia*(levels.c1*alpha[j] + levels.c2*alphaOld_[j]) - diffusion*compression*stiffness*extrapolated_[j];
                 rowBalance_[i] += advection;

@@ -177,7 +177,7 @@ double laplacianOfSquares(const SimplexMesh& mesh, const NodeGraph& graph)
         const double* grad = &mesh.gradN[e * n * mesh.dim];
         for (int k = 0; k < n * n; ++k)
         {
-            const int slot = graph.slot[e * n * n + k];
+            const int slot = graph.slot(mesh.elements[e * n + k / n], e * n * n + k);
             for (int d = 0; d < mesh.dim && slot >= 0; ++d)
             {
                 matrix[slot] += mesh.volume[e] * grad[k / n * mesh.dim + d] * grad[k % n * mesh.dim + d];

@@ -99,7 +99,7 @@ TEST_CASE("slots lead to the columns, columns are the nodes that share an elemen
             for (int k = 0; k < n * n; ++k)
             {
                 const int row = mesh.elements[e * n + k / n], column = mesh.elements[e * n + k % n];
-                const int slot = graph.slot[e * n * n + k];
+                const int slot = graph.slot(row, e * n * n + k);
                 neighbours[row].insert(column);
                 slotsRight = slotsRight && graph.column[slot] == column && slot >= graph.rowStart[row] && slot < graph.rowStart[row + 1];
             }
