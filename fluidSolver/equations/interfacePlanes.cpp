@@ -134,8 +134,9 @@ void InterfacePlanes::offerCutPlanes(const SimplexMesh& mesh)
     commit();
 }
 
-/// Normals become means over the cut elements around, weighted by volume: a node's foot lies beside the plane's own point, and the tilt of one element alone,
-/// carried there, lets a level surface creep (docs/numerics.md, section 2). The more the normals disagree (sheets, corners), the more each element's own counts.
+/// Normals become means over the cut elements around, weighted by volume: a node's foot lies beside the plane's own point, and the tilt of one
+/// element alone, carried there, lets a level surface creep (docs/numerics.md, section 2). The more the normals disagree (sheets, corners), the
+/// more each element's own counts.
 void InterfacePlanes::alignNormals(const SimplexMesh& mesh)
 {
     const int nCorners = dim_ + 1, stride = dim_ + 1;   // sum of normals, of weights
@@ -265,8 +266,8 @@ void propagateInterfacePlanes(const SimplexMesh& mesh, const NodeGraph& graph, c
     const std::vector<double>& alpha, const std::vector<double>& width, int nRings, InterfacePlanes& planes,
     const Cover* cover)
 {
-    // As far out as the transport keeps the profile: nodes of cut elements lie up to 1.1 h from the surface on slanted triangles, 1.7 h in tetrahedra, and a level
-    // cut off there tilts the element's plane.
+    // As far out as the transport keeps the profile: nodes of cut elements lie up to 1.1 h from the surface on slanted triangles, 1.7 h in
+    // tetrahedra, and a level cut off there tilts the element's plane.
     constexpr double lowest = 1e-4, highest = 1 - lowest;
     const double clip = std::log(highest/lowest);
     std::vector<double> level(mesh.nNodes);
