@@ -33,7 +33,7 @@ struct NumericsControls
     double ghostVelocity = 0.05, ghostConvection = 0.01, ghostPressure = 0.05;
     // phase field
     bool dualCellTransport = true;  ///< false: the paper's SUPG form (eq 9)
-    double interfaceWidth = 0.3;   ///< delta over local element length
+    double interfaceWidth = 0.25;  ///< delta over local element length
     double mobility = 0;            ///< gamma over |u|max of the optional model flux
     double transportCourant = 0.9;  ///< limit of dt sum(outflow)/V of a sub-step
     double densityClip = 0.002;     ///< c of balance.md 1.1d

@@ -85,6 +85,8 @@ void InterfacePlanes::offer(const SimplexMesh& mesh, int node, const double* pla
 void InterfacePlanes::planesOfCutElements(const SimplexMesh& mesh, const std::vector<double>& level, const Cover* cover)
 {
     const int nCorners = dim_ + 1;
+    cutElements_.clear();
+    cutPlanes_.clear();
     for (int e = 0; e < mesh.nElements; ++e)
     {
         const int* nodes = &mesh.elements[static_cast<std::size_t>(e)*nCorners];
@@ -118,10 +120,60 @@ void InterfacePlanes::planesOfCutElements(const SimplexMesh& mesh, const std::ve
         }
         plane[2*dim_] = slope;
         plane[2*dim_ + 1] = 1;
-        for (int a = 0; a < nCorners; ++a)
-            offer(mesh, nodes[a], plane);
+        cutElements_.push_back(e);
+        cutPlanes_.insert(cutPlanes_.end(), plane, plane + width_);
     }
+}
+
+void InterfacePlanes::offerCutPlanes(const SimplexMesh& mesh)
+{
+    const int nCorners = dim_ + 1;
+    for (std::size_t k = 0; k < cutElements_.size(); ++k)
+        for (int a = 0; a < nCorners; ++a)
+            offer(mesh, mesh.elements[static_cast<std::size_t>(cutElements_[k])*nCorners + a], &cutPlanes_[k*width_]);
     commit();
+}
+
+/// Normals become means over the cut elements around, weighted by volume: a node's foot lies beside the plane's own point, and the tilt of one
+/// element alone, carried there, lets a level surface creep (docs/numerics.md, section 2). The more the normals disagree (sheets, corners), the
+/// more each element's own counts.
+void InterfacePlanes::alignNormals(const SimplexMesh& mesh)
+{
+    const int nCorners = dim_ + 1, stride = dim_ + 1;   // sum of normals, of weights
+    normalSum_.resize(static_cast<std::size_t>(mesh.nNodes)*stride);
+    const auto forNodes = [&](std::size_t k, auto&& act) {
+        for (int a = 0; a < nCorners; ++a)
+            act(&normalSum_[static_cast<std::size_t>(mesh.elements[static_cast<std::size_t>(cutElements_[k])*nCorners + a])*stride]);
+    };
+    for (std::size_t k = 0; k < cutElements_.size(); ++k)
+        forNodes(k, [&](double* sum) { std::fill_n(sum, stride, 0.); });
+    for (std::size_t k = 0; k < cutElements_.size(); ++k)
+    {
+        const double weight = mesh.volume[cutElements_[k]], *normal = &cutPlanes_[k*width_ + dim_];
+        forNodes(k, [&](double* sum) {
+            for (int d = 0; d < dim_; ++d)
+                sum[d] += weight*normal[d];
+            sum[dim_] += weight;
+        });
+    }
+    for (std::size_t k = 0; k < cutElements_.size(); ++k)
+    {
+        double mean[3] = {}, *normal = &cutPlanes_[k*width_ + dim_], weight = 0, length = 0, newLength = 0;
+        forNodes(k, [&](const double* sum) {
+            for (int d = 0; d < dim_; ++d)
+                mean[d] += sum[d];
+            weight += sum[dim_];
+        });
+        for (int d = 0; d < dim_; ++d)
+            length += mean[d]*mean[d];
+        for (int d = 0; d < dim_; ++d)
+        {
+            mean[d] += (weight - std::sqrt(length))*normal[d];
+            newLength += mean[d]*mean[d];
+        }
+        for (int d = 0; d < dim_ && newLength > 0; ++d)
+            normal[d] = mean[d]/std::sqrt(newLength);
+    }
 }
 
 /// Moves the accepted offers from next_ to data_: a sweep reads only the state before it (the same on any rank).
@@ -183,10 +235,15 @@ void InterfacePlanes::exchange(const SimplexMesh& mesh, const Halo& halo)
 }
 
 void InterfacePlanes::propagate(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo,
-    const std::vector<double>& level, int nRings, const Cover* cover)
+    const std::vector<double>& level, int nRings, const Cover* cover, bool hasMeanNormals)
 {
     clear(mesh);
     planesOfCutElements(mesh, level, cover);
+    if (hasMeanNormals)
+        alignNormals(mesh);
+    offerCutPlanes(mesh);
+    if (hasMeanNormals)
+        exchange(mesh, halo);   // the means of elements that touch no owned node lack what other ranks hold
     // Two rings of elements are held: two stages are right on the owned nodes before copies must be refreshed.
     for (int ring = 1; ring <= nRings; ++ring)
     {
@@ -209,15 +266,17 @@ void propagateInterfacePlanes(const SimplexMesh& mesh, const NodeGraph& graph, c
     const std::vector<double>& alpha, const std::vector<double>& width, int nRings, InterfacePlanes& planes,
     const Cover* cover)
 {
-    constexpr double clip = 4;
-    const double lowest = 1/(1 + std::exp(clip)), highest = 1 - lowest;
+    // As far out as the transport keeps the profile: nodes of cut elements lie up to 1.1 h from the surface on slanted triangles, 1.7 h in
+    // tetrahedra, and a level cut off there tilts the element's plane.
+    constexpr double lowest = 1e-4, highest = 1 - lowest;
+    const double clip = std::log(highest/lowest);
     std::vector<double> level(mesh.nNodes);
     for (int i = 0; i < mesh.nNodes; ++i)
     {
         const double a = alpha[i];
         level[i] = width[i]*(a <= lowest ? -clip : a >= highest ? clip : std::log(a/(1 - a)));
     }
-    planes.propagate(mesh, graph, halo, level, nRings, cover);
+    planes.propagate(mesh, graph, halo, level, nRings, cover, true);
 }
 
 } // namespace flotsam

@@ -24,15 +24,18 @@ public:
 
     /// Planes of the zero level of `level` (nNodes, halo up to date, positive in the liquid), handed on over `nRings`
     /// rings of nodes; a node takes the plane with the nearest point. Elements that `cover` calls solid are left out.
+    /// hasMeanNormals: normals are means over the neighbouring cut elements.
     /// Collective; the result does not depend on the number of ranks.
     void propagate(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo,
-        const std::vector<double>& level, int nRings, const Cover* cover = nullptr);
+        const std::vector<double>& level, int nRings, const Cover* cover = nullptr, bool hasMeanNormals = false);
 
 private:
     const double* at(int node) const { return &data_[static_cast<std::size_t>(node)*width_]; }
     double* at(int node) { return &data_[static_cast<std::size_t>(node)*width_]; }
     void clear(const SimplexMesh& mesh);
     void planesOfCutElements(const SimplexMesh& mesh, const std::vector<double>& level, const Cover* cover);
+    void alignNormals(const SimplexMesh& mesh);
+    void offerCutPlanes(const SimplexMesh& mesh);
     void offer(const SimplexMesh& mesh, int node, const double* plane);
     void sweep(const SimplexMesh& mesh, const NodeGraph& graph);
     void commit();
@@ -44,11 +47,14 @@ private:
     std::vector<double> distance_;
     std::vector<int> nodes_, changed_, offered_;
     std::vector<char> isOffered_;
+    std::vector<int> cutElements_;
+    std::vector<double> cutPlanes_;     // per cut element: point, normal, slope, flag
+    std::vector<double> normalSum_;     // per node of cut elements: normals times volume, volume
     std::vector<double> before_;    // halo entries before an exchange
 };
 
-/// Planes of the level alpha = 0.5: level = width ln(alpha/(1-alpha)), clipped at 4 widths, whose gradient is 1 in the
-/// equilibrium profile, so that slope() is the actual steepness relative to it. width: nNodes [m].
+/// Planes of the level alpha = 0.5: level = width ln(alpha/(1-alpha)), alpha limited to [1e-4, 1 - 1e-4], whose gradient is 1 in the
+/// equilibrium profile, so that slope() is the actual steepness relative to it; with mean normals. width: nNodes [m].
 void propagateInterfacePlanes(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo,
     const std::vector<double>& alpha, const std::vector<double>& width, int nRings, InterfacePlanes& planes,
     const Cover* cover = nullptr);
