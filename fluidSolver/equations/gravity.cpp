@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "equations/gravity.hpp"
 
+#include "equations/materials.hpp"
 #include "geometry/cover.hpp"
 
 #include <algorithm>
@@ -13,6 +14,19 @@ namespace
 {
 
 constexpr double sameDensity = 1e-10; // relative spread of nodal densities that counts as constant
+
+/// Distance of a node from its plane [m], of which only one element length h around the plane's own point counts as the surface.
+double distanceFromSurface(const SimplexMesh& mesh, const InterfacePlanes& planes, int i, double h)
+{
+    const double d = planes.distance(i);
+    double square = 0;
+    for (int k = 0; k < mesh.dim; ++k)
+    {
+        const double t = mesh.x[std::size_t(i)*mesh.dim + k] - d*planes.normal(i)[k] - planes.point(i)[k];
+        square += t*t;
+    }
+    return std::hypot(d, std::max(0.0, std::sqrt(square) - h));
+}
 
 /// g.x of the foot of a point on the plane of node i. The node's own foot stays within one element length of the plane's own point, beyond
 /// which an inclined plane says nothing about the surface's height.
@@ -81,10 +95,42 @@ double elementPotential(const SimplexMesh& mesh, const double* g, const Interfac
     return opposed > 0 ? (1 - opposed)*mean + opposed*facingPotential(mesh, g, planes, e, gradRho) : mean;
 }
 
+/// Mean over the fluid part of an element.
+double meanOf(const SimplexMesh& mesh, const Cover* cover, int e, const std::vector<double>& value)
+{
+    const int n = mesh.dim + 1;
+    const int* nodes = &mesh.elements[std::size_t(e)*n];
+    double mean = 0;
+    if (cover && cover->state[e] == ElementState::Cut)
+    {
+        const CutElement& cut = cover->cuts[cover->cutIndex[e]];
+        for (int a = 0; a < n; ++a) mean += value[nodes[a]]*cut.first[a]/cut.volume;
+        return mean;
+    }
+    for (int a = 0; a < n; ++a) mean += value[nodes[a]]/n;
+    return mean;
+}
+
 } // namespace
 
+void surfaceDensity(const SimplexMesh& mesh, const FluidProperties& fluid, const NumericsControls& controls, const InterfacePlanes& planes,
+    const std::vector<double>& width, const std::vector<double>& alpha, std::vector<double>& result)
+{
+    result.resize(mesh.nNodes);
+    for (int i = 0; i < mesh.nNodes; ++i)
+    {
+        double most = 1;    // share of the other fluid
+        if (planes.has(i))
+        {
+            const double h = width[i]/controls.interfaceWidth;
+            most = 1/(1 + std::exp((distanceFromSurface(mesh, planes, i, h) - h)/width[i]));
+        }
+        result[i] = density(fluid, controls, alpha[i] < 0.5 ? std::min(alpha[i], most) : std::max(alpha[i], 1 - most));
+    }
+}
+
 void gravityForce(const SimplexMesh& mesh, const std::array<double, 3>& gravity, const std::vector<double>& rho,
-    const InterfacePlanes* planes, const Cover* cover, std::vector<double>& result)
+    const InterfacePlanes* planes, const std::vector<double>& ofSurface, const Cover* cover, std::vector<double>& result)
 {
     const int dim = mesh.dim, n = dim + 1;
     double g[3];
@@ -93,38 +139,27 @@ void gravityForce(const SimplexMesh& mesh, const std::array<double, 3>& gravity,
     for (int e = 0; e < mesh.nElements; ++e)
     {
         const int* nodes = &mesh.elements[std::size_t(e)*n];
-        double lightest = rho[nodes[0]], heaviest = lightest, mean = 0;
-        bool hasPlanes = planes != nullptr;
-        for (int a = 0; a < n; ++a)
+        bool isBalanced = planes != nullptr;
+        for (int a = 0; a < n; ++a) isBalanced = isBalanced && planes->has(nodes[a]);
+        if (isBalanced)
         {
-            lightest = std::min(lightest, rho[nodes[a]]);
-            heaviest = std::max(heaviest, rho[nodes[a]]);
-            mean += rho[nodes[a]];
-            hasPlanes = hasPlanes && planes->has(nodes[a]);
+            const auto [lightest, heaviest] = std::minmax_element(nodes, nodes + n, [&](int i, int j) { return ofSurface[i] < ofSurface[j]; });
+            isBalanced = ofSurface[*heaviest] - ofSurface[*lightest] > sameDensity*ofSurface[*heaviest];
         }
         double* f = &result[std::size_t(e)*dim];
-        if (!hasPlanes || heaviest - lightest <= sameDensity*heaviest)
-        {
-            if (cover && cover->state[e] == ElementState::Cut && heaviest > lightest)
-            {
-                const CutElement& cut = cover->cuts[cover->cutIndex[e]];
-                mean = 0;
-                for (int a = 0; a < n; ++a) mean += n*rho[nodes[a]]*cut.first[a]/cut.volume;
-            }
-            for (int d = 0; d < dim; ++d) f[d] = mean/n*g[d];
-            continue;
-        }
+        const double weight = meanOf(mesh, cover, e, rho) - (isBalanced ? meanOf(mesh, cover, e, ofSurface) : 0);
+        for (int d = 0; d < dim; ++d) f[d] = weight*g[d];
+        if (!isBalanced) continue;
         double gradRho[3] = {};
         for (int a = 0; a < n; ++a)
-            for (int d = 0; d < dim; ++d) gradRho[d] += mesh.gradN[(std::size_t(e)*n + a)*dim + d]*rho[nodes[a]];
+            for (int d = 0; d < dim; ++d) gradRho[d] += mesh.gradN[(std::size_t(e)*n + a)*dim + d]*ofSurface[nodes[a]];
         const double foot = elementPotential(mesh, g, *planes, e, gradRho);
-        std::fill(f, f + dim, 0.0);
         for (int a = 0; a < n; ++a)
         {
             double potential = -foot;
             for (int d = 0; d < dim; ++d) potential += g[d]*mesh.x[std::size_t(nodes[a])*dim + d];
             for (int d = 0; d < dim; ++d)
-                f[d] += mesh.gradN[(std::size_t(e)*n + a)*dim + d]*rho[nodes[a]]*potential;
+                f[d] += mesh.gradN[(std::size_t(e)*n + a)*dim + d]*ofSurface[nodes[a]]*potential;
         }
     }
 }
