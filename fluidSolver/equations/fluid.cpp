@@ -146,9 +146,13 @@ void Fluid::assemble()
     std::vector<double> rho(mesh_.nNodes);
     for (int i = 0; i < mesh_.nNodes; ++i) rho[i] = density(fluid_, controls_, fluid_.isTwoPhase ? state_.alpha[i] : 1);
     const bool isBalanced = fluid_.isTwoPhase && controls_.balancedGravity;
+    std::vector<double> ofSurface;
     if (isBalanced)
+    {
         propagateInterfacePlanes(mesh_, graph_, halo_, state_.alpha, transport_.width(), controls_.gravityLayers, planes_, cover_);
-    gravityForce(mesh_, fluid_.gravity, rho, isBalanced ? &planes_ : nullptr, cover, force_);
+        surfaceDensity(mesh_, fluid_, controls_, planes_, transport_.width(), state_.alpha, ofSurface);
+    }
+    gravityForce(mesh_, fluid_.gravity, rho, isBalanced ? &planes_ : nullptr, ofSurface, cover, force_);
 
     FlowStepData step;
     step.time = time_;

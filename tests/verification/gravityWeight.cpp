@@ -41,9 +41,11 @@ void balancedForce(const SimplexMesh& mesh, const Level& level, std::vector<doub
     }
     InterfacePlanes planes;
     propagateInterfacePlanes(mesh, graph, halo, alpha, width, controls.gravityLayers, planes);
+    std::vector<double> ofSurface;
+    surfaceDensity(mesh, FluidProperties{}, controls, planes, width, alpha, ofSurface);
     std::array<double, 3> g{};
     g[mesh.axes[dim - 1]] = gravity;
-    gravityForce(mesh, g, rho, &planes, nullptr, f);
+    gravityForce(mesh, g, rho, &planes, ofSurface, nullptr, f);
 }
 
 /// Of f = grad I_h(rho phi) - phi_G grad rho what phi_G decides: the rest, interpolation of rho phi, leaves nothing inside the box.
