@@ -46,10 +46,7 @@ void PressureHierarchy::createMatrix(const FlowSystem& system)
         if (b < n) count(b, a);
     }
     MatDestroy(&matrix_);
-    check(MatCreate(halo_.comm(), &matrix_));
-    check(MatSetSizes(matrix_, n, n, PETSC_DETERMINE, PETSC_DETERMINE));
-    check(MatSetType(matrix_, MATHYPRE)); // PETSc's own format would be copied
-    check(MatHYPRESetPreallocation(matrix_, 0, diagonal.data(), 0, offDiagonal.data()));
+    check(MatCreateAIJ(halo_.comm(), n, n, PETSC_DETERMINE, PETSC_DETERMINE, 0, diagonal.data(), 0, offDiagonal.data(), &matrix_));
 }
 
 void PressureHierarchy::addGhosts(const FlowSystem& system)
@@ -93,6 +90,11 @@ void PressureHierarchy::fillMatrix(const FlowSystem& system)
     addGhosts(system);
     check(MatAssemblyBegin(matrix_, MAT_FINAL_ASSEMBLY));
     check(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));
+    // hypre would keep a copy beside PETSc's matrix
+    Mat copy = nullptr;
+    check(MatConvert(matrix_, MATHYPRE, MAT_INITIAL_MATRIX, &copy));
+    check(MatDestroy(&matrix_));
+    matrix_ = copy;
 }
 
 void PressureHierarchy::createCycle()
