@@ -14,7 +14,6 @@ namespace
 {
 
 constexpr double sameDensity = 1e-10; // relative spread of nodal densities that counts as constant
-constexpr double curvedCosine = 0.75;   // largest angle (41 degrees) between the planes of an element whose surface still counts as one
 
 /// Distance of a node from its plane [m], of which only one element length h around the plane's own point counts as the surface.
 double distanceFromSurface(const SimplexMesh& mesh, const InterfacePlanes& planes, int i, double h)
@@ -29,22 +28,23 @@ double distanceFromSurface(const SimplexMesh& mesh, const InterfacePlanes& plane
     return std::hypot(d, std::max(0.0, std::sqrt(square) - h));
 }
 
-/// g.x of the foot of a node on its plane. It stays within one element length h of the plane's own point, beyond
+/// g.x of the foot of a point on the plane of node i. The node's own foot stays within one element length of the plane's own point, beyond
 /// which an inclined plane says nothing about the surface's height.
-double footPotential(const SimplexMesh& mesh, const double* g, const InterfacePlanes& planes, int i, double h)
+double footPotential(const SimplexMesh& mesh, const double* g, const InterfacePlanes& planes, int i, double h, const double* point)
 {
     const int dim = mesh.dim;
     const double *c = planes.point(i), *n = planes.normal(i), *x = &mesh.x[std::size_t(i)*dim], d = planes.distance(i);
-    double t[3], length = 0;
+    double t[3], length = 0, along = 0;
     for (int k = 0; k < dim; ++k)
     {
         t[k] = x[k] - d*n[k] - c[k];
         length += t[k]*t[k];
+        along += n[k]*(point[k] - x[k]);
     }
     length = std::sqrt(length);
     const double share = length > h ? h/length : 1;
     double result = 0;
-    for (int k = 0; k < dim; ++k) result += g[k]*(c[k] + share*t[k]);
+    for (int k = 0; k < dim; ++k) result += g[k]*(c[k] + share*t[k] + point[k] - x[k] - along*n[k]);
     return result;
 }
 
@@ -62,14 +62,37 @@ double leastCosine(const InterfacePlanes& planes, const int* nodes, int dim)
     return least;
 }
 
-/// g.x_G of an element: mean over its nodes' feet.
-double elementPotential(const SimplexMesh& mesh, const double* g, const InterfacePlanes& planes, int e)
+/// Mean of the feet of an element's centre on its nodes' planes, each by the cosine between the plane's normal and the density gradient.
+double facingPotential(const SimplexMesh& mesh, const double* g, const InterfacePlanes& planes, int e, const double* gradRho)
 {
-    const int n = mesh.dim + 1;
+    const int dim = mesh.dim, n = dim + 1;
+    const int* nodes = &mesh.elements[std::size_t(e)*n];
+    double centre[3] = {}, facing = 0, sum = 0;
+    for (int a = 0; a < n; ++a)
+        for (int k = 0; k < dim; ++k) centre[k] += mesh.x[std::size_t(nodes[a])*dim + k]/n;
+    for (int a = 0; a < n; ++a)
+    {
+        double slope = 0;
+        for (int k = 0; k < dim; ++k) slope += gradRho[k]*planes.normal(nodes[a])[k];
+        if (slope <= 0) continue;
+        facing += slope;
+        sum += slope*footPotential(mesh, g, planes, nodes[a], mesh.h[e], centre);
+    }
+    if (facing > 0) return sum/facing;
+    for (int k = 0; k < dim; ++k) sum += g[k]*centre[k];
+    return sum;
+}
+
+/// g.x_G of an element: mean over its nodes' feet. In the middle of a sheet a few elements thick nodes have the planes of either side, and that of the
+/// other side says nothing about this one's height: the more the planes oppose each other, the more only those count that face as the density grows.
+double elementPotential(const SimplexMesh& mesh, const double* g, const InterfacePlanes& planes, int e, const double* gradRho)
+{
+    const int dim = mesh.dim, n = dim + 1;
     const int* nodes = &mesh.elements[std::size_t(e)*n];
     double mean = 0;
-    for (int a = 0; a < n; ++a) mean += footPotential(mesh, g, planes, nodes[a], mesh.h[e])/n;
-    return mean;
+    for (int a = 0; a < n; ++a) mean += footPotential(mesh, g, planes, nodes[a], mesh.h[e], &mesh.x[std::size_t(nodes[a])*dim])/n;
+    const double opposed = std::max(0.0, -leastCosine(planes, nodes, dim));
+    return opposed > 0 ? (1 - opposed)*mean + opposed*facingPotential(mesh, g, planes, e, gradRho) : mean;
 }
 
 /// Mean over the fluid part of an element.
@@ -86,33 +109,6 @@ double meanOf(const SimplexMesh& mesh, const Cover* cover, int e, const std::vec
     }
     for (int a = 0; a < n; ++a) mean += value[nodes[a]]/n;
     return mean;
-}
-
-/// Whether every node has a plane and the density that belongs to them varies.
-bool isAtSurface(const InterfacePlanes& planes, const std::vector<double>& ofSurface, const int* nodes, int n)
-{
-    for (int a = 0; a < n; ++a)
-        if (!planes.has(nodes[a])) return false;
-    const auto [lightest, heaviest] = std::minmax_element(nodes, nodes + n, [&](int i, int j) { return ofSurface[i] < ofSurface[j]; });
-    return ofSurface[*heaviest] - ofSurface[*lightest] > sameDensity*ofSurface[*heaviest];
-}
-
-/// Share of the balanced form per element, 0 .. 1; negative: not at the surface. The form moves weight across the surface, from where the profile has it to
-/// the plane; that adds up to nothing only if all of a profile's elements do it alike: the most curved around a node decides.
-std::vector<double> balancedShare(const SimplexMesh& mesh, const InterfacePlanes& planes, const std::vector<double>& ofSurface)
-{
-    const int n = mesh.dim + 1;
-    std::vector<double> share(mesh.nElements, -1.0), atNode(mesh.nNodes, 1.0);
-    for (int e = 0; e < mesh.nElements; ++e)
-    {
-        const int* nodes = &mesh.elements[std::size_t(e)*n];
-        if (!isAtSurface(planes, ofSurface, nodes, n)) continue;
-        share[e] = std::max(0.0, 1 - (1 - leastCosine(planes, nodes, mesh.dim))/(1 - curvedCosine));
-        for (int a = 0; a < n; ++a) atNode[nodes[a]] = std::min(atNode[nodes[a]], share[e]);
-    }
-    for (int e = 0; e < mesh.nElements; ++e)
-        for (int a = 0; a < n; ++a) share[e] = std::min(share[e], atNode[mesh.elements[std::size_t(e)*n + a]]);
-    return share;
 }
 
 } // namespace
@@ -139,23 +135,31 @@ void gravityForce(const SimplexMesh& mesh, const std::array<double, 3>& gravity,
     const int dim = mesh.dim, n = dim + 1;
     double g[3];
     for (int d = 0; d < dim; ++d) g[d] = gravity[mesh.axes[d]];
-    const std::vector<double> share = planes ? balancedShare(mesh, *planes, ofSurface) : std::vector<double>(mesh.nElements, -1.0);
     result.resize(std::size_t(mesh.nElements)*dim);
     for (int e = 0; e < mesh.nElements; ++e)
     {
         const int* nodes = &mesh.elements[std::size_t(e)*n];
-        const bool isBalanced = share[e] > 0;
+        bool isBalanced = planes != nullptr;
+        for (int a = 0; a < n; ++a) isBalanced = isBalanced && planes->has(nodes[a]);
+        if (isBalanced)
+        {
+            const auto [lightest, heaviest] = std::minmax_element(nodes, nodes + n, [&](int i, int j) { return ofSurface[i] < ofSurface[j]; });
+            isBalanced = ofSurface[*heaviest] - ofSurface[*lightest] > sameDensity*ofSurface[*heaviest];
+        }
         double* f = &result[std::size_t(e)*dim];
-        const double weight = meanOf(mesh, cover, e, rho) - (isBalanced ? share[e]*meanOf(mesh, cover, e, ofSurface) : 0);
+        const double weight = meanOf(mesh, cover, e, rho) - (isBalanced ? meanOf(mesh, cover, e, ofSurface) : 0);
         for (int d = 0; d < dim; ++d) f[d] = weight*g[d];
         if (!isBalanced) continue;
-        const double foot = elementPotential(mesh, g, *planes, e);
+        double gradRho[3] = {};
+        for (int a = 0; a < n; ++a)
+            for (int d = 0; d < dim; ++d) gradRho[d] += mesh.gradN[(std::size_t(e)*n + a)*dim + d]*ofSurface[nodes[a]];
+        const double foot = elementPotential(mesh, g, *planes, e, gradRho);
         for (int a = 0; a < n; ++a)
         {
             double potential = -foot;
             for (int d = 0; d < dim; ++d) potential += g[d]*mesh.x[std::size_t(nodes[a])*dim + d];
             for (int d = 0; d < dim; ++d)
-                f[d] += share[e]*mesh.gradN[(std::size_t(e)*n + a)*dim + d]*ofSurface[nodes[a]]*potential;
+                f[d] += mesh.gradN[(std::size_t(e)*n + a)*dim + d]*ofSurface[nodes[a]]*potential;
         }
     }
 }

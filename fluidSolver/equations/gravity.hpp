@@ -2,12 +2,11 @@
 /// Gravity as a force per element that is exactly the gradient of a P1 function when the fluid rests.
 ///
 /// In an element with a density gradient, f = sum_k grad N_k rho_k g.(x_k - x_G) = grad I_h(rho g.x) - (g.x_G) grad rho_h,
-/// x_G: foot on the nearest surface plane, mean over the nodes. With a flat surface g.x_G is one number and the nodal
+/// x_G: foot on the nearest surface plane, mean over the nodes; between two surfaces on the one that the element belongs to. With a flat surface g.x_G is one number and the nodal
 /// pressure p_k = rho_k g.(x_k - x_G) cancels f in every element, for any mesh and any nodal rho. Elsewhere f = rho g.
 ///
 /// rho_k is there only what the surface accounts for (surfaceDensity()); the rest weighs f = rho g. Spray or mist above a flat surface would
-/// otherwise weigh nothing: its force would be a gradient as well, and the pressure would carry it. And the more the planes of an element's nodes
-/// differ the more f = rho g: there is no hydrostatic rest in a sheet or drop a few elements thick, and the form would take up to a quarter of its weight.
+/// otherwise weigh nothing: its force would be a gradient as well, and the pressure would carry it.
 #pragma once
 
 #include "core/controls.hpp"
