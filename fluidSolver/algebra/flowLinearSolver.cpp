@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "algebra/flowLinearSolver.hpp"
 
-#include "algebra/gmres.hpp"
 #include "algebra/petscCalls.hpp"
+#include "algebra/scaledFlowSystem.hpp"
+
+#include <petscksp.h>
 
 #include <algorithm>
 
@@ -15,20 +17,116 @@ namespace
 constexpr double startReduction = 0.1; // of the residual by the first solve of a step
 constexpr double negligible = 1e-3; // of the tolerance: a residual that needs no solve
 
+/// Arrays of two vectors for the time of a product.
+class Arrays
+{
+public:
+    Arrays(Vec in, Vec out) : in_(in), out_(out)
+    {
+        VecGetArrayRead(in_, &x);
+        VecGetArray(out_, &y);
+    }
+    ~Arrays()
+    {
+        VecRestoreArrayRead(in_, &x);
+        VecRestoreArray(out_, &y);
+    }
+    const PetscScalar* x;
+    PetscScalar* y;
+private:
+    Vec in_, out_;
+};
+
+PetscErrorCode applyMatrix(Mat m, Vec in, Vec out)
+{
+    void* system;
+    MatShellGetContext(m, &system);
+    const Arrays a(in, out);
+    static_cast<ScaledFlowSystem*>(system)->multiply(a.x, a.y);
+    return 0;
+}
+
+PetscErrorCode applyPreconditioner(PC pc, Vec in, Vec out)
+{
+    void* system;
+    PCShellGetContext(pc, &system);
+    const Arrays a(in, out);
+    static_cast<ScaledFlowSystem*>(system)->precondition(a.x, a.y);
+    return 0;
+}
+
+/// Both at once: the preconditioner's last product is a part of the matrix's.
+PetscErrorCode applyPreconditionedMatrix(PC pc, PCSide, Vec in, Vec out, Vec)
+{
+    void* system;
+    PCShellGetContext(pc, &system);
+    const Arrays a(in, out);
+    static_cast<ScaledFlowSystem*>(system)->multiplyPreconditioned(a.x, a.y);
+    return 0;
+}
+
 } // namespace
 
 struct FlowLinearSolver::Implementation
 {
+    const Halo& halo;
     const NumericsControls& controls;
     ScaledFlowSystem system;
-    Gmres gmres;
-    std::vector<double> residual;
+    Mat matrix = nullptr;
+    KSP krylov = nullptr;
+    Vec rhs = nullptr, solution = nullptr;
+    int nVector = -1;
     bool isFirstSolve = true;           // of the system
     bool isNewMatrix = true;            // of the system: FlowSystem::isNewMatrix
 
-    Implementation(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const NumericsControls& c)
-    :   controls(c), system(mesh, graph, halo), gmres(system, halo, c.restart)
+    Implementation(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& h, const NumericsControls& c)
+    :   halo(h), controls(c), system(mesh, graph, h)
     {}
+
+    ~Implementation() { destroyKrylov(); }
+
+    void destroyKrylov()
+    {
+        KSPDestroy(&krylov);
+        MatDestroy(&matrix);
+        VecDestroy(&rhs);
+        VecDestroy(&solution);
+    }
+
+    void createKrylov()
+    {
+        const int n = system.nEntries();
+        if (!halo.any(!krylov || n != nVector)) return;
+        destroyKrylov();
+        nVector = n;
+        check(MatCreateShell(halo.comm(), n, n, PETSC_DETERMINE, PETSC_DETERMINE, &system, &matrix));
+        check(MatShellSetOperation(matrix, MATOP_MULT, (void (*)(void)) applyMatrix));
+        check(MatCreateVecs(matrix, &solution, &rhs));
+        check(KSPCreate(halo.comm(), &krylov));
+        check(KSPSetOptionsPrefix(krylov, "flow_"));
+        check(KSPSetOperators(krylov, matrix, matrix));
+        check(KSPSetType(krylov, KSPGMRES));
+        check(KSPGMRESSetRestart(krylov, controls.restart));
+        check(KSPGMRESSetCGSRefinementType(krylov, KSP_GMRES_CGS_REFINE_IFNEEDED));
+        PC pc;
+        check(KSPGetPC(krylov, &pc));
+        check(PCSetType(pc, PCSHELL));
+        check(PCShellSetContext(pc, &system));
+        check(PCShellSetApply(pc, applyPreconditioner));
+        check(PCShellSetApplyBA(pc, applyPreconditionedMatrix));
+        check(KSPSetFromOptions(krylov));
+        check(KSPSetPCSide(krylov, PC_RIGHT)); // after the options: applyPreconditionedMatrix() knows no other
+    }
+
+    /// Residual into rhs; its norm and that of the right-hand side.
+    void setResidual(const std::vector<double>& x, const std::vector<double>& q, double& first, double& norm)
+    {
+        PetscScalar* r;
+        check(VecGetArray(rhs, &r));
+        norm = system.residual(x, q, r);
+        check(VecRestoreArray(rhs, &r));
+        check(VecNorm(rhs, NORM_2, &first));
+    }
 };
 
 FlowLinearSolver::FlowLinearSolver(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const NumericsControls& controls)
@@ -48,7 +146,7 @@ void FlowLinearSolver::setSystem(const FlowSystem& system)
     impl_->isFirstSolve = true;
     impl_->isNewMatrix = system.isNewMatrix;
     impl_->system.set(system);
-    impl_->residual.resize(impl_->system.nEntries());
+    impl_->createKrylov();
 }
 
 SolveReport FlowLinearSolver::solve(std::vector<double>& x, std::vector<double>& q)
@@ -57,8 +155,8 @@ SolveReport FlowLinearSolver::solve(std::vector<double>& x, std::vector<double>&
     Implementation& me = *impl_;
     SolveReport report;
     report.rebuiltPreconditioner = me.isNewMatrix && me.system.pressure().isNew();
-    const double norm = me.system.residual(x, q, me.residual.data()); // of the right-hand side
-    const double first = me.gmres.norm(me.residual);
+    double first = 0, norm = 0;
+    me.setResidual(x, q, first, norm);
     if (!(norm < 1e300) || !(first < 1e300)) return report; // not a number: the caller repeats the step
     report.initial = report.final = norm > 0 ? first/norm : 0;
     // The first solve of a step also makes the residual of its start ten times smaller. An extrapolated start may meet the tolerance by itself (the gas
@@ -72,12 +170,25 @@ SolveReport FlowLinearSolver::solve(std::vector<double>& x, std::vector<double>&
         report.hasConverged = true;
         return report;
     }
-    const Gmres::Result result = me.gmres.solve(x, q, me.residual, first, target, me.controls.maxIterations);
-    report.iterations = result.iterations;
-    report.final = norm > 0 ? result.residual/norm : 0;
-    report.hasConverged = result.hasConverged;
+    check(KSPSetTolerances(me.krylov, 1e-14, target, 1e10, me.controls.maxIterations));
+    check(VecSet(me.solution, 0));
+    check(KSPSolve(me.krylov, me.rhs, me.solution));
+    PetscInt iterations;
+    PetscReal final;
+    KSPConvergedReason reason;
+    check(KSPGetIterationNumber(me.krylov, &iterations));
+    check(KSPGetResidualNorm(me.krylov, &final));
+    check(KSPGetConvergedReason(me.krylov, &reason));
+    report.iterations = int(iterations);
+    report.final = norm > 0 ? final/norm : 0;
+    report.hasConverged = reason > 0;
     // a solve that only follows a new contact impulse starts near its end: it says nothing about the hierarchy's age
     if (isFirst && me.isNewMatrix) me.system.pressure().countIterations(report.iterations);
+
+    const PetscScalar* d;
+    check(VecGetArrayRead(me.solution, &d));
+    me.system.addTo(x, q, d);
+    check(VecRestoreArrayRead(me.solution, &d));
     return report;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Krylov solution of a FlowSystem: GMRES outside, block preconditioner inside.
+/// Krylov solution of a FlowSystem: GMRES (PETSc) outside, block preconditioner inside.
 ///
 /// Preconditioner (lower-upper block factorisation, SIMPLE type): velocity by its diagonal blocks, solids by their own
 /// mass and wall blocks, pressure by one BoomerAMG V-cycle on the assembled Schur approximation plus its viscous part

@@ -120,15 +120,23 @@ void ScaledFlowSystem::finishProduct(const FlowOperator& op, double* y, const do
     solids_.writeRows(qRows_, y + n);
 }
 
+void ScaledFlowSystem::multiply(const double* x, double* y)
+{
+    const std::size_t n = std::size_t(mesh_.nOwned)*B_;
+    for (std::size_t i = 0; i < n; ++i) local_[i] = x[i]*scale_[i];
+    solids_.readVelocity(x + n, q_);
+    finishProduct(product(), y, nullptr);
+}
+
 /// Velocity by its diagonal blocks, into local_.
-template<int D, class Real>
-void ScaledFlowSystem::startVelocity(const Real* r)
+template<int D>
+void ScaledFlowSystem::startVelocity(const double* r)
 {
     constexpr int B = D + 1;
     for (int i = 0; i < mesh_.nOwned; ++i)
     {
         const float* m = &velocityInverse_[std::size_t(i)*D*D];
-        const Real* ri = r + std::size_t(i)*B;
+        const double* ri = r + std::size_t(i)*B;
         const double unscaled = 1/scale_[std::size_t(i)*B]; // one for the node's velocity
         double* z = &local_[std::size_t(i)*B];
         for (int a = 0; a < D; ++a)
@@ -142,8 +150,7 @@ void ScaledFlowSystem::startVelocity(const Real* r)
 }
 
 /// pressureLocal_ = S^-1 (r_p - D z_u), z_u in local_ and q_.
-template<class Real>
-void ScaledFlowSystem::solvePressure(const Real* r)
+void ScaledFlowSystem::solvePressure(const double* r)
 {
     const FlowSystem& s = *system_;
     product().divergence(local_.data(), solids_.isEmpty() ? nullptr : q_.data(), pressureRows_.data());
@@ -180,8 +187,7 @@ void ScaledFlowSystem::correctVelocity()
 }
 
 /// local_ (owned nodes), q_ = preconditioner times r, without the scaling of the columns; gradient_ is that of its pressure.
-template<class Real>
-void ScaledFlowSystem::preconditionUnscaled(const Real* r)
+void ScaledFlowSystem::preconditionUnscaled(const double* r)
 {
     const FlowOperator op = product();
     if (mesh_.dim == 2) startVelocity<2>(r); else startVelocity<3>(r);
@@ -189,8 +195,7 @@ void ScaledFlowSystem::preconditionUnscaled(const Real* r)
     halo_.update(local_.data(), B_);
     if (!solids_.isEmpty())
     {
-        const Real* rows = r + std::size_t(mesh_.nOwned)*B_;
-        solids_.readRows(std::vector<double>(rows, rows + solids_.nLocalEntries()).data(), qRows_);
+        solids_.readRows(r + std::size_t(mesh_.nOwned)*B_, qRows_);
         solids_.solve(qRows_, q_);
     }
     solvePressure(r);
@@ -203,26 +208,17 @@ void ScaledFlowSystem::preconditionUnscaled(const Real* r)
     for (std::size_t k = 0; k < q_.size(); ++k) q_[k] -= qWork_[k];
 }
 
-/// (local_, q_) as a vector.
-void ScaledFlowSystem::copySolution(double* z) const
+void ScaledFlowSystem::precondition(const double* r, double* z)
 {
     const std::size_t n = std::size_t(mesh_.nOwned)*B_;
-    std::copy(local_.begin(), local_.begin() + n, z);
+    preconditionUnscaled(r);
+    for (std::size_t i = 0; i < n; ++i) z[i] = local_[i]/scale_[i];
     solids_.writeVelocity(q_, z + n);
 }
 
-template<class Real>
-void ScaledFlowSystem::precondition(const Real* r, double* z)
+void ScaledFlowSystem::multiplyPreconditioned(const double* r, double* y)
 {
     preconditionUnscaled(r);
-    copySolution(z);
-}
-
-template<class Real>
-void ScaledFlowSystem::multiplyPreconditioned(const Real* r, double* y, double* z)
-{
-    preconditionUnscaled(r);
-    if (z) copySolution(z);
     finishProduct(product(), y, gradient_.data());
 }
 
@@ -268,20 +264,15 @@ double ScaledFlowSystem::residual(const std::vector<double>& x, const std::vecto
     return std::sqrt(halo_.sum(square));
 }
 
-void ScaledFlowSystem::addTo(std::vector<double>& x, std::vector<double>& q, const double* z)
+void ScaledFlowSystem::addTo(std::vector<double>& x, std::vector<double>& q, const double* solution)
 {
     const std::size_t n = std::size_t(mesh_.nOwned)*B_;
     const int nd = system_->nDof;
-    for (std::size_t i = 0; i < n; ++i) x[i] += z[i];
-    solids_.readVelocity(z + n, q_);
+    for (std::size_t i = 0; i < n; ++i) x[i] += solution[i]*scale_[i];
+    solids_.readVelocity(solution + n, q_);
     for (int s : solids_.free())
         for (int d = 0; d < nd; ++d) q[s*nd + d] += q_[s*nd + d];
     halo_.update(x.data(), B_);
 }
-
-template void ScaledFlowSystem::precondition(const float*, double*);
-template void ScaledFlowSystem::precondition(const double*, double*);
-template void ScaledFlowSystem::multiplyPreconditioned(const float*, double*, double*);
-template void ScaledFlowSystem::multiplyPreconditioned(const double*, double*, double*);
 
 } // namespace flotsam

@@ -19,26 +19,25 @@ public:
     void set(const FlowSystem& system);
 
     int nEntries() const { return mesh_.nOwned*B_ + solids_.nLocalEntries(); }
-    /// z = preconditioner times r, without the scaling of the columns: what addTo() takes.
-    template<class Real> void precondition(const Real* r, double* z);
-    /// y = matrix times preconditioner times r; also z, where it is not null.
-    template<class Real> void multiplyPreconditioned(const Real* r, double* y, double* z);
+    void multiply(const double* x, double* y);
+    void precondition(const double* r, double* z);
+    /// y = matrix times preconditioner times r.
+    void multiplyPreconditioned(const double* r, double* y);
 
     /// Scaled residual r of (x: nNodes*(dim+1) with its halo up to date, q: nDof per solid); returns the norm of the scaled right-hand side.
     double residual(const std::vector<double>& x, const std::vector<double>& q, double* r);
-    /// Adds what precondition() gave to x and q; the halo of x is updated.
-    void addTo(std::vector<double>& x, std::vector<double>& q, const double* z);
+    /// Adds a scaled solution to x and q; the halo of x is updated.
+    void addTo(std::vector<double>& x, std::vector<double>& q, const double* solution);
 
     PressureHierarchy& pressure() { return pressure_; }
 
 private:
     template<int D> void setDiagonals();
-    template<int D, class Real> void startVelocity(const Real* r);
+    template<int D> void startVelocity(const double* r);
     template<int D> void correctVelocity();
-    template<class Real> void solvePressure(const Real* r);
+    void solvePressure(const double* r);
     void addPressureSources(double* r) const;
-    template<class Real> void preconditionUnscaled(const Real* r);
-    void copySolution(double* z) const;
+    void preconditionUnscaled(const double* r);
     void finishProduct(const FlowOperator& op, double* y, const double* ofPressure);
     void balanceContinuity(double* y) const;
     void removeMean(std::vector<double>& p) const;
