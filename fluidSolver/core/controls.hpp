@@ -28,7 +28,7 @@ struct NumericsControls
     bool tauContWithTimeStep = true; ///< tau_cont = rho h^2/(12 tau) with the time step inside tau (twophase), else rho(nu + |a|h/2)
     // embedded boundary
     bool nitsche = true;            ///< false: the paper's pure penalty
-    double nitscheGamma = 10;       ///< non-symmetric Nitsche: coefficient of mu/h
+    double nitscheGamma = 4;        ///< non-symmetric Nitsche: coefficient of mu/h
     double penalty = 1e3;           ///< pure penalty pbar [Pa s/m] (paper eq 5), used when nitsche is false
     double ghostVelocity = 0.05, ghostConvection = 0.01, ghostPressure = 0.05;
     // phase field
