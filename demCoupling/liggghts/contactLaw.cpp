@@ -194,7 +194,7 @@ ContactModes stiffestModes(const BodyDefinition& body)
 /// damping are about this many times those of the body landing on a fixed plane.
 constexpr double squeeze = 4;
 /// Where the dashpots of a flat landing are more than a sub-step can take, it may rebound with this share of the restitution.
-constexpr double flatShare = 0.08; // measured rebounds are up to 1.05 of a tenth at 0.1
+constexpr double flatShare = 0.07;
 
 } // namespace
 

@@ -88,7 +88,7 @@ void checkOrders(const ErrorTable& table)
 /// The torque by its size: its errors of both signs (stiff P1 layer, slip at the wall) nearly cancel, so that no order is seen between two meshes.
 void checkCouette(const ErrorTable& table)
 {
-    CHECK(table.lastOrder("u H1") > 0.94);
+    CHECK(table.lastOrder("u H1") > 0.95);
     CHECK(table.lastOrder("p L2") > 1.5);
     for (const char* torque : {"torque inner", "torque outer"})
     {
@@ -102,13 +102,13 @@ void checkCouette(const ErrorTable& table)
 TEST_CASE("Stokes around a disc") { checkOrders(aroundBody(2, "Stokes, disc", 1e-3, 1, {16, 32, 64})); }
 TEST_CASE("Navier-Stokes around a disc") { checkOrders(aroundBody(2, "Navier-Stokes, disc, mu 0.01", 1, 1e-2, {12, 24, 48})); }
 TEST_CASE("Stokes around a sphere") { checkOrders(aroundBody(3, "Stokes, sphere", 1e-3, 1, {6, 12, 24})); }
-TEST_CASE("Couette flow between cut cylinders, Stokes") { checkCouette(couette("Annular Couette, Stokes", 1e-3, 1, {16, 32, 64})); }
+TEST_CASE("Couette flow between cut cylinders, Stokes") { checkCouette(couette("Annular Couette, Stokes", 1e-3, 1, {16, 32, 64, 96})); }
 TEST_CASE("Couette flow between cut cylinders, Reynolds number 40")
 {
     checkCouette(couette("Annular Couette, mu 0.01", 1, 1e-2, {12, 24, 48}));
 }
 
-// Without adjoint consistency the order depends on nitscheGamma: 10 gives 1.79 from 32 to 64 cells, 4 gives 2.00, 100 gives 2.0 with larger errors.
+// Not reached: 1.80. The non-symmetric Nitsche form is not adjoint-consistent; nitscheGamma 100 gives 2.0 with larger errors.
 TEST_CASE("Couette flow between cut cylinders, velocity of order 2" * doctest::skip())
 {
     CHECK(couette("Annular Couette, Stokes", 1e-3, 1, {16, 32, 64, 96}).lastOrder("u L2") > 1.9);
