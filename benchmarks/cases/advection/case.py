@@ -26,7 +26,7 @@ def test(name, solver, sizes, variant="", quick=0, **options):
 
 
 def ours(name, sizes):
-    return [Run(OURS, n, name, {"test": name, "arguments": [str(n), "no", "0.5", "0.3"]}, quick=n <= 64) for n in sizes]
+    return [Run(OURS, n, name, {"test": name, "arguments": [str(n), "no", "0.5", "0.25"]}, quick=n <= 64) for n in sizes]
 
 
 runs = [
