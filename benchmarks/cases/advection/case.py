@@ -69,7 +69,7 @@ def prepare(run, do):
 def _ours(run, case):
     with open(os.path.join(case, "log.solver"), encoding="utf-8") as log:
         name = "zalesak" if run.options["test"] == "zalesak" else "vortex T=8"
-        line = [x for x in log if x.startswith(name) and re.search(rf"n +{run.n} delta 0.30", x)][-1]
+        line = [x for x in log if x.startswith(name) and re.search(rf"n +{run.n} delta 0.25", x)][-1]
     values = re.search(r"error ([\d.]+) mass (\S+) .*alpha \[(\S+), 1(\S+)\].*\| ([\d.]+) us/node/step, (\d+) steps", line).groups()
     error, mass, lowest, above, pace, steps = (float(v) for v in values)
     nodes = (run.n + 1)**2
