@@ -123,8 +123,7 @@ void run(Foam::Time& runTime, Foam::fvMesh& mesh, bool isDryRun)
         step.start(std::move(start), true);
     }
     output.begin(step);
-    mesh.primitiveMesh::clearGeom();        // what only the start needed
-    mesh.primitiveMesh::clearAddressing();
+    mesh.primitiveMesh::clearAddressing();  // cells, edges and the like that only the start needed; the geometry must stay: fields of the fvMesh are slices of it
     installStopSignals();
 
     double dt = output.timeStep() > 0 ? output.timeStep() : std::min(runTime.deltaTValue(), controls.time.maxDeltaT)/growthLimit;
@@ -160,7 +159,7 @@ void run(Foam::Time& runTime, Foam::fvMesh& mesh, bool isDryRun)
         if (runTime.writeTime() || isStopping || writeNow)
         {
             output.writeState(step, dt);
-            step.fluid().forgetPreconditioner();
+            step.fluid().forgetUnwritten();
         }
     }
     output.end(step);

@@ -58,7 +58,6 @@ struct FlowSystem
     std::vector<char> isActive;                 ///< nNodes: has a fluid element
     std::vector<double> dualVolume;             ///< nOwned: fluid part [m^dim]
     bool hasPressureLevel = false;              ///< some node has its pressure prescribed (all ranks)
-    bool geometryChanged = true;                ///< the cover is not the one of the last solve
     bool isNewMatrix = true;                    ///< assembled since the last solve; else only right-hand sides of solids have changed
 };
 

@@ -9,7 +9,6 @@ namespace flotsam
 namespace
 {
 
-constexpr int maxAgeWhileCutMoves = 4;
 constexpr int setupCost = 3;            // GMRES iterations that cost as much as a new hierarchy
 constexpr double singularShift = 1e-7;  // relative diagonal shift of the matrix without a pressure level
 
@@ -117,16 +116,15 @@ void PressureHierarchy::createCycle()
 
 /// A hierarchy ages with the surface's motion: each step takes some iterations more than the best one. It is renewed when the last step's
 /// excess is above the mean of what a step has cost in excess and set-up: from then on that mean would rise.
-bool PressureHierarchy::isWorn(const FlowSystem& system) const
+bool PressureHierarchy::isWorn() const
 {
     if (age_ < 0 || age_ >= maxAge_) return true;
-    if (system.geometryChanged && age_ >= maxAgeWhileCutMoves) return true;
     return lastExcess_ > 0 && lastExcess_*nSolves_ >= setupCost + sumOfExcess_;
 }
 
 void PressureHierarchy::update(const FlowSystem& system, const std::vector<double>& scale)
 {
-    if (!isWorn(system))
+    if (!isWorn())
     {
         ++age_;
         for (int i = 0; i < mesh_.nOwned; ++i) weight_[i] = scale[i]/builtScale_[i];

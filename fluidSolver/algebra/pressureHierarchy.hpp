@@ -47,7 +47,7 @@ private:
     void fillMatrix(const FlowSystem& system);
     void addGhosts(const FlowSystem& system);
     void createCycle();
-    bool isWorn(const FlowSystem& system) const;
+    bool isWorn() const;
 
     const SimplexMesh& mesh_;
     const NodeGraph& graph_;

@@ -98,21 +98,12 @@ void DualCellTransport::limit(const Arguments& in, TransportReport& report)
     constexpr int n = dim + 1;
     for (std::size_t k = 0; k < active_.size(); ++k)
     {
-        const double* flux = &antiFlux_[k*Pairs::count];
-        double increase[n] = {}, decrease[n] = {};
-        for (int p = 0; p < Pairs::count; ++p)
-        {
-            const double forward = std::max(flux[p], 0.), backward = std::max(-flux[p], 0.);
-            increase[Pairs::second[p]] += forward;
-            decrease[Pairs::first[p]] += forward;
-            increase[Pairs::first[p]] += backward;
-            decrease[Pairs::second[p]] += backward;
-        }
+        const CornerSums<dim> sums(&antiFlux_[k*Pairs::count]);
         const int* nodes = &mesh_.elements[std::size_t(stored_[active_[k]])*n];
         for (int a = 0; a < n; ++a)
         {
-            limiter_[2*std::size_t(nodes[a])] += increase[a];
-            limiter_[2*std::size_t(nodes[a]) + 1] += decrease[a];
+            limiter_[2*std::size_t(nodes[a])] += sums.in[a];
+            limiter_[2*std::size_t(nodes[a]) + 1] += sums.out[a];
         }
     }
     for (int i : activeNodes_)

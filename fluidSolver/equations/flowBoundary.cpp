@@ -2,7 +2,6 @@
 /// Boundary conditions on the mesh's patches: prescribed directions, open boundaries.
 #include "equations/flowEquation.hpp"
 
-#include "equations/gasRegion.hpp"
 #include "geometry/cutSimplex.hpp"
 
 #include <algorithm>
@@ -15,7 +14,6 @@ namespace flotsam
 namespace
 {
 
-constexpr double noLevel = 1e300;  // no boundary with a given pressure
 constexpr double sameNormal = 0.9; // cosine above which two slip faces at a node belong to one smooth wall
 
 /// Area vector of a patch face (outward), dim components.
@@ -231,12 +229,7 @@ void FlowEquation::applyConstraints(const std::vector<PatchValues>& values, std:
             x[std::size_t(i)*B + dim] = values[p].pressure[k];
         }
     }
-    for (int i = 0; i < mesh_.nNodes && step_.gas; ++i)
-    {
-        const bool isOut = !step_.cover->isActiveNode[i] && step_.cover->nearestSolid[i] < 0;
-        if (isOut) std::fill_n(&x[std::size_t(i)*B], dim, 0.0);
-        if (isOut || step_.gas->isEdge()[i]) x[std::size_t(i)*B + dim] = gasPressure(i);
-    }
+    if (step_.gas) applyGasEdge(x);
     halo_.update(x, B);
 }
 
@@ -304,72 +297,8 @@ void FlowEquation::addOpenFace(const int* nodes, const double* v, const double* 
     }
 }
 
-double FlowEquation::gasPressure(int i) const
-{
-    double p = gasLevel_;
-    for (int d = 0; d < mesh_.dim; ++d) p += fluid_.rhoGas*fluid_.gravity[mesh_.axes[d]]*mesh_.x[std::size_t(i)*mesh_.dim + d];
-    return p;
-}
-
-/// Pressures at the edge of the gas that is computed: prescribed, those of gas at rest under the boundaries with a given pressure. Of these the
-/// lowest counts: water may reach some.
-void FlowEquation::fixGasEdge()
-{
-    if (!step_.gas) return;
-    gasLevel_ = 0;
-    double level = noLevel;
-    for (std::size_t p = 0; p < patches_.size(); ++p)
-    {
-        if (patches_[p].pressure == BoundaryPatch::Pressure::Natural) continue;
-        for (std::size_t k = 0; k < patches_[p].nodes.size(); ++k)
-            level = std::min(level, (*step_.patchValues)[p].pressure[k] - gasPressure(patches_[p].nodes[k]));
-    }
-    level = halo_.min(level);
-    gasLevel_ = level < noLevel ? level : 0;
-    bool any = false;
-    for (int i = 0; i < mesh_.nNodes; ++i)
-    {
-        system_.isPressureFixed[i] = isPatchPressureFixed_[i] || step_.gas->isEdge()[i];
-        any = any || (i < mesh_.nOwned && system_.isPressureFixed[i]);
-    }
-    system_.hasPressureLevel = halo_.any(any);
-}
-
-/// Terms of an open boundary on the faces between what is computed and what is left out.
-template<int D>
-void FlowEquation::assembleGasEdge()
-{
-    if (!step_.gas) return;
-    double first[D], second[D*D];
-    for (int k = 0; k < D; ++k) first[k] = 1./D;
-    for (int k = 0; k < D*D; ++k) second[k] = (k % (D + 1) == 0 ? 2. : 1.)/(D*(D + 1));
-    for (const InteriorFace& face : graph_.faces)
-    {
-        for (int side = 0; side < 2; ++side)
-        {
-            const int e = face.element[side], other = face.element[1 - side];
-            const bool isOut = step_.gas->isLeftOut(other) && step_.cover->state[other] == ElementState::Solid;
-            if (!isOut || step_.cover->state[e] == ElementState::Solid) continue;
-            int nodes[D], count = 0;
-            double v[D] = {}, pressure[D];
-            for (int a = 0; a <= D; ++a)
-            {
-                const int i = mesh_.elements[std::size_t(e)*(D + 1) + a];
-                if (i != face.opposite[side])
-                {
-                    pressure[count] = gasPressure(i);
-                    nodes[count++] = i;
-                }
-                else
-                    for (int d = 0; d < D; ++d) v[d] = -D*mesh_.volume[e]*mesh_.gradN[(std::size_t(e)*(D + 1) + a)*D + d];
-            }
-            addOpenFace<D>(nodes, v, first, second, pressure);
-        }
-    }
-}
-
-template void FlowEquation::assembleGasEdge<2>();
-template void FlowEquation::assembleGasEdge<3>();
+template void FlowEquation::addOpenFace<2>(const int*, const double*, const double*, const double*, const double*);
+template void FlowEquation::addOpenFace<3>(const int*, const double*, const double*, const double*, const double*);
 template void FlowEquation::assembleOpenBoundaries<2>();
 template void FlowEquation::assembleOpenBoundaries<3>();
 

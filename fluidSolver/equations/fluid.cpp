@@ -27,7 +27,7 @@ Fluid::Fluid(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& f
     equation_(mesh, graph_, halo, fluid_, controls_, patches_), solver_(mesh, graph_, halo, controls_),
     transport_(mesh, graph_, halo, controls_)
 {
-    if (controls_.gasDepth > 0 && fluid_.isTwoPhase) gas_ = std::make_unique<GasRegion>(mesh, graph_, halo, controls_.gasDepth);
+    if (controls_.gasDepth > 0 && fluid_.isTwoPhase) gas_ = std::make_unique<GasRegion>(mesh, halo, controls_.gasDepth);
     if (!controls_.dualCellTransport) supg_ = std::make_unique<PhaseFieldSupg>(mesh, graph_, halo, controls_);
 }
 
@@ -52,7 +52,6 @@ void Fluid::setGeometry(const Cover* cover, const std::vector<Solid>* solids, bo
 {
     cover_ = cover;
     solids_ = solids;
-    geometryChanged_ = geometryChanged_ || hasChanged;
     if (cover && hasChanged && fluid_.isTwoPhase) extendPhase();
 }
 
@@ -140,7 +139,7 @@ void Fluid::assemble()
     const Cover* cover = cover_;
     if (gas_)
     {
-        geometryChanged_ = gas_->choose(state_.alpha, cover_) || geometryChanged_;
+        gas_->choose(state_.alpha, cover_);
         cover = &gas_->cover(cover_);
     }
     std::vector<double> rho(mesh_.nNodes);
@@ -164,10 +163,8 @@ void Fluid::assemble()
     step.elementForce = &force_;
     step.fineScale = &state_.fineScale;
     step.transport = fluid_.isTwoPhase && !supg_ ? &transport_ : nullptr;
-    equation_.system().geometryChanged = geometryChanged_;
     equation_.assemble(step);
     equation_.system().isNewMatrix = true;
-    geometryChanged_ = false;
 
     // start: extrapolated velocity and pressure (10 to 20 % less time than with the last pressure)
     const int dim = mesh_.dim, B = dim + 1, nDof = equation_.system().nDof;
@@ -282,7 +279,7 @@ void Fluid::rejectStep()
     solver_.forgetPreconditioner(); // what failed may have been its
 }
 
-void Fluid::forgetPreconditioner()
+void Fluid::forgetUnwritten()
 {
     solver_.forgetPreconditioner();
     if (gas_) gas_->forget();

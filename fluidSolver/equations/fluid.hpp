@@ -65,8 +65,8 @@ public:
     /// Liquid volume the transport keeps to (part of the state) [m^dim].
     double keptLiquid() const { return supg_ ? supg_->liquidVolume() : transport_.liquidVolume(); }
     void setKeptLiquid(double volume);
-    /// After the state has been written: a run that goes on from it starts with a new preconditioner, this one likewise, and both stay the same.
-    void forgetPreconditioner();
+    /// What the written state does not hold (preconditioner, gas left out) starts anew, as in a run that goes on from it: both stay the same.
+    void forgetUnwritten();
     /// Ghost-penalty fluxes of the last accepted solve as {a, b, flux} triples (part of the state of a run with solids).
     std::vector<double> ghostFluxes() const;
     void setGhostFluxes(const std::vector<double>& triples);
@@ -103,7 +103,6 @@ private:
     std::vector<double> workU_, workFine_;
     std::vector<PairFlux> ghostFlux_;   // of the last accepted solve
     double liquidBefore_ = 0;
-    bool geometryChanged_ = true;
 };
 
 } // namespace flotsam

@@ -14,8 +14,8 @@ constexpr int keptLonger = 2;       // rings beyond nRings in which a computed e
 
 } // namespace
 
-GasRegion::GasRegion(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, int nRings)
-:   mesh_(mesh), graph_(graph), halo_(halo), nRings_(nRings), depth_(mesh.nNodes), isLeftOut_(mesh.nElements, 1), isEdge_(mesh.nNodes, 0)
+GasRegion::GasRegion(const SimplexMesh& mesh, const Halo& halo, int nRings)
+:   mesh_(mesh), halo_(halo), nRings_(nRings), depth_(mesh.nNodes), isLeftOut_(mesh.nElements, 1), isEdge_(mesh.nNodes, 0)
 {}
 
 /// Cut elements count as water: the terms of a solid's surface reach over its neighbours.
@@ -39,21 +39,17 @@ void GasRegion::findDepths(const std::vector<double>& alpha, const Cover* cover)
     }
 }
 
-bool GasRegion::choose(const std::vector<double>& alpha, const Cover* cover)
+void GasRegion::choose(const std::vector<double>& alpha, const Cover* cover)
 {
     findDepths(alpha, cover);
     const int n = mesh_.dim + 1;
-    bool hasChanged = false;
     for (int e = 0; e < mesh_.nElements; ++e)
     {
         const int* nodes = &mesh_.elements[std::size_t(e)*n];
         int nearest = depth_[nodes[0]];
         for (int a = 1; a < n; ++a) nearest = std::min(nearest, depth_[nodes[a]]);
-        const char isOut = nearest >= nRings_ + (isLeftOut_[e] ? 0 : keptLonger);
-        hasChanged = hasChanged || isOut != isLeftOut_[e];
-        isLeftOut_[e] = isOut;
+        isLeftOut_[e] = nearest >= nRings_ + (isLeftOut_[e] ? 0 : keptLonger);
     }
-    return halo_.any(hasChanged);
 }
 
 const Cover& GasRegion::cover(const Cover* cover)

@@ -12,11 +12,10 @@ class GasRegion
 {
 public:
     /// nRings: rings of elements around the water that are computed.
-    GasRegion(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, int nRings);
+    GasRegion(const SimplexMesh& mesh, const Halo& halo, int nRings);
 
-    /// Chooses anew from where the water is; elements that are computed stay so two rings longer. Whether the choice differs from the last
-    /// one. Collective.
-    bool choose(const std::vector<double>& alpha, const Cover* cover);
+    /// Chooses anew from where the water is; elements that are computed stay so two rings longer. Collective.
+    void choose(const std::vector<double>& alpha, const Cover* cover);
     /// The next choice does not know the last one.
     void forget() { isLeftOut_.assign(isLeftOut_.size(), 1); }
 
@@ -30,7 +29,6 @@ private:
     void findDepths(const std::vector<double>& alpha, const Cover* cover);
 
     const SimplexMesh& mesh_;
-    const NodeGraph& graph_;
     const Halo& halo_;
     int nRings_;
     std::vector<int> depth_;            // nNodes: rings from the water

@@ -65,23 +65,16 @@ void DualCellTransport::sumElementRates(const Arguments& in)
     std::size_t position = 0;
     for (int e = 0; e < mesh_.nInnerElements; ++e)
     {
-        double flux[Pairs::count], into[n] = {}, outOf[n] = {};
+        double flux[Pairs::count];
         volumeFlux_.ofElement<dim>(e, in.u, in.fineScale, in.cover, flux);
-        for (int p = 0; p < Pairs::count; ++p)
-        {
-            const double forward = std::max(flux[p], 0.), backward = std::max(-flux[p], 0.);
-            outOf[Pairs::first[p]] += forward;
-            into[Pairs::second[p]] += forward;
-            into[Pairs::first[p]] += backward;
-            outOf[Pairs::second[p]] += backward;
-        }
+        const CornerSums<dim> sums(flux);
         const bool isStored = position < stored_.size() && stored_[position] == e;
         const int* nodes = &mesh_.elements[std::size_t(e)*n];
         for (int a = 0; a < n; ++a)
         {
-            inflow_[nodes[a]] += into[a];
-            outflow_[nodes[a]] += outOf[a];
-            if (!isStored) rest_[nodes[a]] += into[a] - outOf[a];
+            inflow_[nodes[a]] += sums.in[a];
+            outflow_[nodes[a]] += sums.out[a];
+            if (!isStored) rest_[nodes[a]] += sums.in[a] - sums.out[a];
         }
         if (!isStored) continue;
         storedAt_[e] = static_cast<int>(position);

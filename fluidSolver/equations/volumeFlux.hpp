@@ -12,6 +12,8 @@
 #include "equations/dualCells.hpp"
 #include "geometry/cover.hpp"
 
+#include <algorithm>
+
 namespace flotsam
 {
 
@@ -29,6 +31,25 @@ template<> struct CornerPairs<3>
 {
     static constexpr int count = 6;
     static constexpr int first[6] = {0, 0, 0, 1, 1, 2}, second[6] = {1, 2, 3, 2, 3, 3};
+};
+
+/// What the fluxes of an element's pairs bring to each corner and take from it, both >= 0.
+template<int dim> struct CornerSums
+{
+    double in[dim + 1] = {}, out[dim + 1] = {};
+
+    explicit CornerSums(const double* flux)
+    {
+        using Pairs = CornerPairs<dim>;
+        for (int p = 0; p < Pairs::count; ++p)
+        {
+            const double forward = std::max(flux[p], 0.), backward = std::max(-flux[p], 0.);
+            in[Pairs::second[p]] += forward;
+            out[Pairs::first[p]] += forward;
+            in[Pairs::first[p]] += backward;
+            out[Pairs::second[p]] += backward;
+        }
+    }
 };
 
 class VolumeFlux

@@ -94,7 +94,6 @@ void ForcedFlow::setGeometry(const Cover& cover, const std::vector<Solid>& solid
 {
     cover_ = &cover;
     solids_ = &solids;
-    equation_.system().geometryChanged = true;
 }
 
 /// The force at the centre of the fluid part: its mean up to second order.
@@ -129,7 +128,6 @@ SolveReport ForcedFlow::step(double dt)
     data.patchValues = &values_;
     data.elementForce = &force_;
     equation_.assemble(data);
-    equation_.system().geometryChanged = false;
     for (int i = 0; i < mesh_.nNodes; ++i)
     {
         for (int d = 0; d < dim; ++d) x_[std::size_t(i)*B + d] = state_.u[std::size_t(i)*dim + d];
