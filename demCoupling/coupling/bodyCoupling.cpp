@@ -221,6 +221,7 @@ void BodyCoupling::accept()
     states_ = result_;
     contact_ = newContact_;
     lastLoads_ = loads_;
+    for (int b = 0; b < nBodies(); ++b) if (isHeld_[b]) lastLoads_[b] = Load(); // what holds it takes them
 }
 
 void BodyCoupling::reject()

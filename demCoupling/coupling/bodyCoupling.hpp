@@ -50,6 +50,7 @@ public:
     const std::vector<BodyState>& states() const { return states_; }        ///< at t^n (after accept(): the new time)
     const std::vector<BodyState>& predicted() const { return predicted_; }  ///< at t^(n+1), pose to cut with
     const std::vector<Load>& contactLoads() const { return contact_; }      ///< to solve the fluid with; after accept(): what acted
+    const std::vector<Load>& lastLoads() const { return lastLoads_; }       ///< fluid and weight, mean over the last accepted step; held bodies: 0
     const std::vector<Load>& wallLoads() const { return wallLoads_; }       ///< time means of the last DEM run, moments about the origin of space
     const std::vector<int>& contactCounts() const { return contactCounts_; }
     const std::vector<int>& wallContactCounts() const { return wallContactCounts_; } ///< bodies that touch each wall

@@ -99,7 +99,7 @@ void CoupledStep::solveWithContact(StepResult& result)
         SolveReport report;
         {
             PhaseTimer t(timers_, Phase::FlowSolve);
-            report = fluid_.solve(coupling_ ? scene_.freeBodies(*coupling_) : std::vector<FreeBody>());
+            report = fluid_.solve(coupling_ ? scene_.freeBodies(*coupling_, fluid_.newLoadShare()) : std::vector<FreeBody>());
         }
         ++result.solves;
         result.linearIterations += report.iterations;
@@ -115,7 +115,7 @@ void CoupledStep::solveWithContact(StepResult& result)
         }
         if (!coupling_) return;
         PhaseTimer t(timers_, Phase::Dem);
-        if (coupling_->correct(scene_.bodyLoads(loads_))) break;
+        if (coupling_->correct(scene_.bodyLoads(loads_, coupling_->lastLoads(), fluid_.newLoadShare()))) break;
     }
     result.contactMismatch = coupling_->mismatch();
 }

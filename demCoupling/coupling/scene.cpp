@@ -49,7 +49,7 @@ void Scene::place(double time, const BodyCoupling* coupling)
     }
 }
 
-std::vector<FreeBody> Scene::freeBodies(const BodyCoupling& coupling) const
+std::vector<FreeBody> Scene::freeBodies(const BodyCoupling& coupling, double newLoadShare) const
 {
     std::vector<FreeBody> result;
     for (std::size_t b = 0; b < bodies_.size(); ++b)
@@ -62,8 +62,10 @@ std::vector<FreeBody> Scene::freeBodies(const BodyCoupling& coupling) const
         body.inertia = R*definition.principalInertia.asDiagonal()*R.transpose();
         body.velocity = coupling.states()[b].motion.velocity;
         body.angularMomentum = coupling.states()[b].angularMomentum;
-        body.force = definition.mass*gravity_ + coupling.contactLoads()[b].force;
-        body.moment = coupling.contactLoads()[b].moment;
+        const Load &last = coupling.lastLoads()[b], &contact = coupling.contactLoads()[b];
+        body.newLoadShare = newLoadShare;
+        body.force = newLoadShare*definition.mass*gravity_ + (1 - newLoadShare)*last.force + contact.force;
+        body.moment = (1 - newLoadShare)*last.moment + contact.moment;
         result.push_back(body);
     }
     return result;

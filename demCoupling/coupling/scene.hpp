@@ -35,18 +35,19 @@ public:
     /// Prescribed structures at `time`; bodies as `coupling` predicts them (null: no bodies).
     void place(double time, const BodyCoupling* coupling);
 
-    /// The free bodies' part of the linear system: states at t^n, weight and contact loads, inertia in the placed orientation.
-    std::vector<FreeBody> freeBodies(const BodyCoupling& coupling) const;
+    /// The free bodies' part of the linear system: states at t^n, weight, last and contact loads, inertia in the placed orientation.
+    std::vector<FreeBody> freeBodies(const BodyCoupling& coupling, double newLoadShare) const;
 
-    /// Fluid force and moment of every body plus its weight: the constant load of the DEM sub-steps.
+    /// Mean over the step of fluid force and moment of every body plus its weight: the constant load of the DEM sub-steps. newLoadShare: see Fluid.
     template<class FluidLoad>
-    std::vector<Load> bodyLoads(const std::vector<FluidLoad>& fluid) const
+    std::vector<Load> bodyLoads(const std::vector<FluidLoad>& fluid, const std::vector<Load>& last, double newLoadShare) const
     {
         std::vector<Load> loads(bodies_.size());
         for (std::size_t b = 0; b < bodies_.size(); ++b)
         {
-            loads[b].force = fluid[structures_.size() + b].force + bodies_[b].mass*gravity_;
-            loads[b].moment = fluid[structures_.size() + b].moment;
+            const FluidLoad& now = fluid[structures_.size() + b];
+            loads[b].force = newLoadShare*(now.force + bodies_[b].mass*gravity_) + (1 - newLoadShare)*last[b].force;
+            loads[b].moment = newLoadShare*now.moment + (1 - newLoadShare)*last[b].moment;
         }
         return loads;
     }

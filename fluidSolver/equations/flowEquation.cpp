@@ -62,19 +62,19 @@ void FlowEquation::assemble(const FlowStepData& step)
     if (mesh_.dim == 2)
     {
         assembleElements<2>();
-        removeMassDefect<2>();
         assembleOpenBoundaries<2>();
         assembleGasEdge<2>();
         assembleWalls<2>();
+        removeMassDefect<2>();
         assembleGhosts<2>();
     }
     else
     {
         assembleElements<3>();
-        removeMassDefect<3>();
         assembleOpenBoundaries<3>();
         assembleGasEdge<3>();
         assembleWalls<3>();
+        removeMassDefect<3>();
         assembleGhosts<3>();
     }
 }
@@ -123,7 +123,8 @@ void FlowEquation::assembleElements()
 }
 
 /// Takes from the rows of the nodes around varying densities what inertia and convection leave of a uniform velocity: the rest of
-/// the mass balance (time levels, cut elements, corrections of the phase field). Open boundaries have their own part of it.
+/// the mass balance (time levels, cut elements, corrections of the phase field). After assembleWalls(): what a moving surface sweeps belongs to the
+/// balance. Open boundaries have their own part of it.
 template<int D>
 void FlowEquation::removeMassDefect()
 {

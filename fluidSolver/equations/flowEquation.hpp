@@ -16,7 +16,8 @@ struct FreeBody
     Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre of mass, in the predicted orientation [kg m^2]
     Vec3 velocity = Vec3::Zero();                       ///< V^n [m/s]
     Vec3 angularMomentum = Vec3::Zero();                ///< L^n [kg m^2/s]
-    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();   ///< weight and mean contact load over the step
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();   ///< mean over the step of all loads but newLoadShare times the fluid's new one
+    double newLoadShare = 1;                            ///< of the step's mean fluid load: see Fluid::newLoadShare()
 };
 
 /// +1 when (axes[0], axes[1], axes[2]) of a 2D mesh is a right-handed order of x, y, z, else -1.
@@ -34,8 +35,8 @@ public:
     /// Fills system(): matrix, right-hand side, ghost faces, solids (inertia and rhs of free solids: setFreeBodies()).
     void assemble(const FlowStepData& step);
 
-    /// Inertia and right-hand side of the free solids (BDF1 rows, so that a DEM step with the same constant load ends at
-    /// the solved velocity). bodies: one per solid of kind Free, in the order of the solids.
+    /// Inertia and right-hand side of the free solids, by the change of velocity within the step, so that a DEM step with the same
+    /// constant load ends at the solved velocity. bodies: one per solid of kind Free, in the order of the solids.
     void setFreeBodies(const std::vector<FreeBody>& bodies, double dt);
 
     /// Writes prescribed velocities and pressures into x (nNodes*(dim+1)).

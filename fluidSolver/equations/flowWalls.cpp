@@ -133,10 +133,12 @@ void FlowEquation::assembleWalls()
             int place[N];
             double wallNormalVelocity = 0;  // ubar.n, mean over the facet
             double slipVelocity = 0;        // (a - ubar).n
+            double wallDensity = 0;         // at the facet, not the element's mean: what the surface sweeps
             for (int a = 0; a < N; ++a)
             {
                 const int i = nodes[a];
                 rigidTransport<D>(mesh_, solid, i, transport[a]);
+                wallDensity += group.m1[a]/group.area*nodal_.rho[i];
                 if (position[i] < 0)
                 {
                     position[i] = int(coupling.node.size());
@@ -166,7 +168,7 @@ void FlowEquation::assembleWalls()
                 ? controls_.nitscheGamma*data.mu/h + data.rho*std::max(0.0, -slipVelocity)
                 : controls_.penalty;
             c.normal = 0.1*data.rho*(h/step_.time.dt + std::sqrt(speed));
-            c.convection = 0.5*data.rho*wallNormalVelocity;
+            c.convection = 0.5*wallDensity*wallNormalVelocity;
             double m[B*B];
             for (int a = 0; a < N; ++a)
                 for (int b = 0; b < N; ++b)
@@ -178,6 +180,7 @@ void FlowEquation::assembleWalls()
                         const std::size_t entry = graph_.slot(nodes[a], (std::size_t(group.element)*N + a)*N + b);
                         system_.matrix.add<D>(entry, m);
                         for (int k = 0; k < D; ++k) system_.matrix.velocity[entry*D*D + k*D + k] += c.convection*m2;
+                        defect_[nodes[a]] += c.convection*m2; // a moving surface's part of the mass balance
                         double* column = &coupling.column[std::size_t(place[a])*B*nDof];
                         for (int r = 0; r < B; ++r)
                             for (int k = 0; k < D; ++k)
@@ -284,7 +287,8 @@ void FlowEquation::setFreeBodies(const std::vector<FreeBody>& bodies, double dt)
         const FreeBody& body = bodies[f++];
         solid.inertia.assign(n*n, 0.0);
         solid.rhs.assign(n, 0.0);
-        const double scale = 1/mesh_.thickness; // 2D equations are per unit thickness
+        const double share = 1/body.newLoadShare; // the fluid's load, the solid's rows, as it is
+        const double scale = share/mesh_.thickness; // 2D equations are per unit thickness
         for (int d = 0; d < dim; ++d)
         {
             const int axis = mesh_.axes[d];
@@ -300,8 +304,8 @@ void FlowEquation::setFreeBodies(const std::vector<FreeBody>& bodies, double dt)
         }
         for (int r = 0; r < 3; ++r)
         {
-            for (int c = 0; c < 3; ++c) solid.inertia[(3 + r)*n + 3 + c] = body.inertia(r, c)/dt;
-            solid.rhs[3 + r] = body.angularMomentum[r]/dt + body.moment[r];
+            for (int c = 0; c < 3; ++c) solid.inertia[(3 + r)*n + 3 + c] = share*body.inertia(r, c)/dt;
+            solid.rhs[3 + r] = share*(body.angularMomentum[r]/dt + body.moment[r]);
         }
     }
 }

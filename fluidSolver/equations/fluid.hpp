@@ -39,6 +39,10 @@ public:
     void endStep();
     void rejectStep();
 
+    /// The mean load of the step on a body is share (new load) + (1 - share) (last step's mean load): m dV/dt by the fluid's own BDF,
+    /// written for the change of velocity within the step. Valid from beginStep().
+    double newLoadShare() const { return 1/(time_.c0*time_.dt); }
+
     /// Fluid force and moment (about the pose's position) on every solid from the last solve, space frame, 3D values.
     struct SolidLoad { Vec3 force, moment; };
     std::vector<SolidLoad> solidLoads() const;

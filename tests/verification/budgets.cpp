@@ -213,14 +213,12 @@ TEST_CASE("closed box: momentum change is the impulse of weight, walls and conta
     }
 }
 
-// Not reached: defect 6e-3 of the weight's impulse (4.2e-3 before free bodies were cut with sharp edges); the energy rises by 1.5 of 77 J while the bar
-// goes through the surface
-TEST_CASE("a bar falls into water: momentum is kept, the total energy does not rise" * doctest::skip())
+TEST_CASE("a bar falls into water: momentum is kept, the total energy does not rise")
 {
     const Account a = fallingBar(true, 0.52, 2e-3, 400);
     print("bar falls into water, sinks and lands", a);
-    CHECK(a.defect() < 5e-3*a.weight);
-    CHECK(a.rise < 5e-3*a.released);
+    CHECK(a.defect() < 2e-3*a.weight);  // measured 1.3e-3
+    CHECK(a.rise < 3e-3*a.released);    // measured 1.5e-3
 }
 
 TEST_CASE("action equals reaction to round-off: walls and ghost faces exchange what the solids' rows hold")
