@@ -115,7 +115,14 @@ void CoupledStep::solveWithContact(StepResult& result)
         }
         if (!coupling_) return;
         PhaseTimer t(timers_, Phase::Dem);
-        if (coupling_->correct(scene_.bodyLoads(loads_))) break;
+        const bool isDone = coupling_->correct(scene_.bodyLoads(loads_));
+        const std::string lost = coupling_->lostBody();
+        if (!lost.empty())
+        {
+            result.failure = "body '" + lost + "' moves farther than the mesh is long";
+            return;
+        }
+        if (isDone) break;
     }
     result.contactMismatch = coupling_->mismatch();
 }
