@@ -110,7 +110,7 @@ class SceneCase:
         text = ""
         if s.bodies:
             thin = min(b.thin for b in s.bodies) * s.length
-            mass = max(b.density * b.volume for b in s.bodies) * s.length**3
+            mass = max((b.density + s.rho[0]) * b.volume for b in s.bodies) * s.length**3
             text += f"contact {{ default {{ stiffness {mass * (s.speed / (0.05 * thin))**2:.6g}; restitution {s.rng.uniform(0.1, 0.9):.3g}; frictionAngle {s.rng.uniform(0, 45):.3g}; }} }}\n"
         text += "structures\n{\n" + "".join(self._solid(x, x.entries + (f" motion {{ {x.motion(s.length)} }}" if hasattr(x, "motion") else "")) for x in s.structures) + "}\n"
         text += "bodies\n{\n"

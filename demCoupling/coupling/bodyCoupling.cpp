@@ -13,8 +13,6 @@ namespace
 constexpr int perBody = 7 + 6 + 3 + 6 + 1; // pose, motion, angular momentum, contact load, contact count
 constexpr int perWall = 6 + 1;              // contact load, contact count
 
-constexpr double largestFactor = 1024;      // of the inertia in contact
-
 void put(double*& at, const Vec3& v) { for (int d = 0; d < 3; ++d) *at++ = v[d]; }
 void get(const double*& at, Vec3& v) { for (int d = 0; d < 3; ++d) v[d] = *at++; }
 
@@ -159,8 +157,8 @@ void BodyCoupling::begin(double time, double dt)
     isHeld_ = held;
     guarded([&]
     {
-        saved_ = engine_->save();
         engine_->setHeld(isHeld_);
+        saved_ = engine_->save();
     });
     for (int b = 0; b < nBodies(); ++b) predicted_[b] = isHeld_[b] ? states_[b] : drifted(b);
 }
@@ -221,20 +219,29 @@ std::vector<Load> BodyCoupling::unscaled(const Eigen::VectorXd& values) const
     return loads;
 }
 
-/// From the answer of the fluid's loads to the last change of the contact loads.
+/// From the answer of the fluid's loads to the last change of the contact loads. What bodies answer to the changes of others spoils that, a
+/// factor too large diverges: only the largest changes count, and no more added mass than twice the liquid a body displaces.
 void BodyCoupling::raiseFactors(const std::vector<Load>& loads)
 {
-    bool isRaised = false;
-    for (std::size_t b = 0; b < loads.size(); ++b)
+    const std::size_t n = loads.size();
+    std::vector<Eigen::Matrix<double, 6, 1>> change(n), answer(n);
+    double largest = 0;
+    for (std::size_t b = 0; b < n; ++b)
     {
         const double arm = radiusOfInertia(int(b));
-        Eigen::Matrix<double, 6, 1> change, answer;
-        change << contact_[b].force - contactBefore_[b].force, (contact_[b].moment - contactBefore_[b].moment)/arm;
-        answer << loads[b].force - loads_[b].force, (loads[b].moment - loads_[b].moment)/arm;
-        if (!(change.norm() > controls_.tolerance*setup_.bodies[b].mass*controls_.gravity)) continue; // the linear solver's noise
-        const double r = std::min(-answer.dot(change)/change.squaredNorm(), 1 - 0.5/largestFactor);
-        const double wanted = r > 0 ? 0.5/(1 - r) : 1;
-        while (factors_[b] < largestFactor && 2*factors_[b] <= wanted) { factors_[b] *= 2; isRaised = true; }
+        change[b] << contact_[b].force - contactBefore_[b].force, (contact_[b].moment - contactBefore_[b].moment)/arm;
+        answer[b] << loads[b].force - loads_[b].force, (loads[b].moment - loads_[b].moment)/arm;
+        largest = std::max(largest, change[b].norm());
+    }
+    bool isRaised = false;
+    for (std::size_t b = 0; b < n; ++b)
+    {
+        const BodyDefinition& body = setup_.bodies[b];
+        if (change[b].norm() < 0.5*largest || change[b].norm() <= controls_.tolerance*body.mass*controls_.gravity) continue; // or noise
+        const double r = -answer[b].dot(change[b])/change[b].squaredNorm();
+        if (r <= 0 || r >= 1) continue;
+        const double wanted = std::min(0.5/(1 - r), 0.5 + controls_.liquidDensity*body.volume/body.mass);
+        while (2*factors_[b] <= wanted) { factors_[b] *= 2; isRaised = true; }
     }
     if (isRaised) anderson_.reset(); // G is another
 }
@@ -300,19 +307,22 @@ std::vector<double> BodyCoupling::save() const
         for (const Load& l : *loads)
             for (const Vec3* v : {&l.force, &l.moment}) data.insert(data.end(), v->data(), v->data() + 3);
     data.insert(data.end(), factors_.begin(), factors_.end());
+    data.insert(data.end(), isHeld_.begin(), isHeld_.end());
     return data;
 }
 
 void BodyCoupling::restore(const std::vector<double>& data)
 {
-    const std::size_t tail = 13*setup_.bodies.size();
+    const std::size_t tail = 14*setup_.bodies.size();
     if (data.size() < tail) throw std::runtime_error("restart: the stored state of the bodies is too short for this case");
     const double* at = data.data() + data.size() - tail;
     for (auto* loads : {&lastLoads_, &contact_})
         for (Load& l : *loads) { get(at, l.force); get(at, l.moment); }
     factors_.assign(at, at + factors_.size());
+    isHeld_.assign(at + factors_.size(), at + 2*factors_.size());
     guarded([&]
     {
+        engine_->setHeld(isHeld_);
         engine_->restore(DemState{std::vector<double>(data.begin(), data.end() - std::ptrdiff_t(tail))});
         result_ = engine_->states();
         newContact_.assign(newContact_.size(), Load());

@@ -18,6 +18,7 @@ CouplingControls couplingControls(const FluidProperties& fluid, const NumericsCo
     c.tolerance = n.contactTolerance;
     c.maxRepeats = n.maxContactRepeats;
     c.gravity = Vec3(fluid.gravity[0], fluid.gravity[1], fluid.gravity[2]).norm();
+    c.liquidDensity = fluid.rhoLiquid;
     return c;
 }
 

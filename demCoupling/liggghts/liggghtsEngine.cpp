@@ -232,8 +232,7 @@ void LiggghtsEngine::setHeld(const std::vector<char>& isHeld)
         if ((isHeld[b] != 0) == (impl_->isHeld[b] != 0))
             continue;
         impl_->isHeld[b] = isHeld[b];
-        if (isHeld[b])
-            setMotion(impl_->model, static_cast<int>(b), {});
+        setMotion(impl_->model, static_cast<int>(b), isHeld[b] ? Motion() : impl_->setup.bodies[b].motion);
         impl_->applyMobility(static_cast<int>(b));
     }
     placeSpheres(impl_->model);
