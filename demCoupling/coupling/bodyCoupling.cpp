@@ -13,6 +13,8 @@ namespace
 constexpr int perBody = 7 + 6 + 3 + 6 + 1; // pose, motion, angular momentum, contact load, contact count
 constexpr int perWall = 6 + 1;              // contact load, contact count
 
+constexpr double leastFactor = 4;           // of the inertia in contact; below, repeats converge by themselves
+
 void put(double*& at, const Vec3& v) { for (int d = 0; d < 3; ++d) *at++ = v[d]; }
 void get(const double*& at, Vec3& v) { for (int d = 0; d < 3; ++d) v[d] = *at++; }
 
@@ -240,8 +242,8 @@ void BodyCoupling::raiseFactors(const std::vector<Load>& loads)
         if (change[b].norm() < 0.5*largest || change[b].norm() <= controls_.tolerance*body.mass*controls_.gravity) continue; // or noise
         const double r = -answer[b].dot(change[b])/change[b].squaredNorm();
         if (r <= 0 || r >= 1) continue;
-        const double wanted = std::min(0.5/(1 - r), 0.5 + controls_.liquidDensity*body.volume/body.mass);
-        while (2*factors_[b] <= wanted) { factors_[b] *= 2; isRaised = true; }
+        const double wanted = std::min(1/(1 - r), 1 + 2*controls_.liquidDensity*body.volume/body.mass);
+        while (wanted >= leastFactor && 2*factors_[b] <= wanted) { factors_[b] *= 2; isRaised = true; }
     }
     if (isRaised) anderson_.reset(); // G is another
 }
@@ -268,8 +270,9 @@ bool BodyCoupling::correct(const std::vector<Load>& loads)
     const Eigen::VectorXd used = scaled(contact_), found = scaled(newContact_);
     if (found.size() == 0) return true;
     const double change = (found - used).cwiseAbs().maxCoeff();
-    const double scale = found.cwiseAbs().maxCoeff() + controls_.gravity*dt_;
+    const double scale = found.cwiseAbs().maxCoeff() + controls_.gravity*dt_, before = mismatch_;
     mismatch_ = scale > 0 ? change/scale : 0;
+    if (repeats_ > 0 && mismatch_ > before) anderson_.reset(); // contacts that open or close: a plain step converges
     if (mismatch_ <= controls_.tolerance || repeats_ >= controls_.maxRepeats) return true;
     ++repeats_;
     contactBefore_ = contact_;

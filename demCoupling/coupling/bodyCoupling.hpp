@@ -13,7 +13,7 @@
 /// driftwood, hence Anderson acceleration. Where r approaches 1 (light bodies, water shut in between body and wall) any J is nearly a
 /// fixed point: a load that presses the body into the wall is answered by the wall. So the engine is then given the body with s times its
 /// mass and the load s (F + J) - J, which is the fluid's answer for an added mass of (s - 1) m: without a change of J the path is the solved
-/// one, with s = (m + added mass)/(2 m) the contraction is a half. r is seen from what the fluid answers to a change of J.
+/// one, with s between (m + added mass)/(2 m) and twice that the contraction is a half at most. r is seen from what the fluid answers to a change of J.
 /// Bodies that have left the mesh by its diagonal are held where they are. Rank 0 owns the engine; every rank holds the same states.
 #pragma once
 
