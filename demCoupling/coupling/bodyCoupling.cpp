@@ -183,11 +183,16 @@ bool BodyCoupling::hasLeft(int b) const
     return ((setup_.box[0] - margin - x).array() > 0).any() || ((x - setup_.box[1] - margin).array() > 0).any();
 }
 
-std::string BodyCoupling::lostBody() const
+std::string BodyCoupling::strayBody(double distance) const
 {
-    const double farthest = (setup_.box[1] - setup_.box[0]).norm();
     for (int b = 0; b < nBodies(); ++b)
-        if (!((result_[b].pose.position - states_[b].pose.position).norm() <= farthest)) return setup_.bodies[b].name;
+    {
+        double extent = 0;
+        for (const SurfaceSphere& s : setup_.bodies[b].spheres) extent = std::max(extent, s.centre.norm() + s.radius);
+        const Pose &found = result_[b].pose, &predicted = predicted_[b].pose;
+        const double turn = std::min(2.0, found.orientation.angularDistance(predicted.orientation));
+        if (!((found.position - predicted.position).norm() + turn*extent <= distance)) return setup_.bodies[b].name;
+    }
     return "";
 }
 

@@ -44,8 +44,8 @@ public:
 
     void begin(double time, double dt);
     bool correct(const std::vector<Load>& loads); ///< loads: fluid and weight, constant over the step
-    /// Name of a body that the last correct() moved farther than the mesh is long; empty: none.
-    std::string lostBody() const;
+    /// Name of a body whose surface the last correct() put farther than `distance` [m] from where it was predicted; empty: none.
+    std::string strayBody(double distance) const;
     void accept();
     void reject();
 
