@@ -13,6 +13,8 @@ namespace
 constexpr int perBody = 7 + 6 + 3 + 6 + 1; // pose, motion, angular momentum, contact load, contact count
 constexpr int perWall = 6 + 1;              // contact load, contact count
 
+constexpr double leastFactor = 4;           // of the inertia in contact; below, repeats converge by themselves
+
 void put(double*& at, const Vec3& v) { for (int d = 0; d < 3; ++d) *at++ = v[d]; }
 void get(const double*& at, Vec3& v) { for (int d = 0; d < 3; ++d) v[d] = *at++; }
 
@@ -50,6 +52,7 @@ BodyCoupling::BodyCoupling(const DemSetup& setup, const CouplingControls& contro
     contactCounts_.assign(n, 0);
     wallContactCounts_.assign(setup.walls.size(), 0);
     isHeld_.assign(n, 0);
+    factors_.assign(n, 1);
     states_.resize(n);
     result_.resize(n);
     guarded([&]
@@ -126,6 +129,7 @@ void BodyCoupling::runEngine(double duration, const std::vector<Load>& loads)
 {
     guarded([&]
     {
+        engine_->setInertiaFactors(factors_);
         engine_->setLoads(loads);
         engine_->advance(duration);
         result_ = engine_->states();
@@ -151,12 +155,12 @@ void BodyCoupling::begin(double time, double dt)
     repeats_ = 0;
     anderson_.reset();
     std::vector<char> held(isHeld_);
-    for (int b = 0; b < nBodies(); ++b) held[b] = time < setup_.bodies[b].releaseTime - 1e-9;
+    for (int b = 0; b < nBodies(); ++b) held[b] = time < setup_.bodies[b].releaseTime - 1e-9 || hasLeft(b);
     isHeld_ = held;
     guarded([&]
     {
-        saved_ = engine_->save();
         engine_->setHeld(isHeld_);
+        saved_ = engine_->save();
     });
     for (int b = 0; b < nBodies(); ++b) predicted_[b] = isHeld_[b] ? states_[b] : drifted(b);
 }
@@ -173,16 +177,39 @@ BodyState BodyCoupling::drifted(int b) const
     return s;
 }
 
+bool BodyCoupling::hasLeft(int b) const
+{
+    const Vec3 margin = Vec3::Constant((setup_.box[1] - setup_.box[0]).norm()), x = states_[b].pose.position;
+    return ((setup_.box[0] - margin - x).array() > 0).any() || ((x - setup_.box[1] - margin).array() > 0).any();
+}
+
+std::string BodyCoupling::strayBody(double distance) const
+{
+    for (int b = 0; b < nBodies(); ++b)
+    {
+        double extent = 0;
+        for (const SurfaceSphere& s : setup_.bodies[b].spheres) extent = std::max(extent, s.centre.norm() + s.radius);
+        const Pose &found = result_[b].pose, &predicted = predicted_[b].pose;
+        const double turn = std::min(2.0, found.orientation.angularDistance(predicted.orientation));
+        if (!((found.position - predicted.position).norm() + turn*extent <= distance)) return setup_.bodies[b].name;
+    }
+    return "";
+}
+
+double BodyCoupling::radiusOfInertia(int b) const
+{
+    return std::sqrt(setup_.bodies[b].principalInertia.maxCoeff()/setup_.bodies[b].mass);
+}
+
 /// Contact loads as the velocity changes they make in one step [m/s].
 Eigen::VectorXd BodyCoupling::scaled(const std::vector<Load>& loads) const
 {
     Eigen::VectorXd v(6*loads.size());
     for (std::size_t b = 0; b < loads.size(); ++b)
     {
-        const BodyDefinition& body = setup_.bodies[b];
-        const double radius = std::sqrt(body.principalInertia.maxCoeff()/body.mass);
-        v.segment<3>(6*b) = loads[b].force*(dt_/body.mass);
-        v.segment<3>(6*b + 3) = loads[b].moment*(dt_/(body.mass*radius));
+        const double mass = setup_.bodies[b].mass*factors_[b];
+        v.segment<3>(6*b) = loads[b].force*(dt_/mass);
+        v.segment<3>(6*b + 3) = loads[b].moment*(dt_/(mass*radiusOfInertia(int(b))));
     }
     return v;
 }
@@ -192,36 +219,83 @@ std::vector<Load> BodyCoupling::unscaled(const Eigen::VectorXd& values) const
     std::vector<Load> loads(setup_.bodies.size());
     for (std::size_t b = 0; b < loads.size(); ++b)
     {
+        const double mass = setup_.bodies[b].mass*factors_[b];
+        loads[b].force = values.segment<3>(6*b)*(mass/dt_);
+        loads[b].moment = values.segment<3>(6*b + 3)*(mass*radiusOfInertia(int(b))/dt_);
+    }
+    return loads;
+}
+
+/// From the answer of the fluid's loads to the last change of the contact loads. What bodies answer to the changes of others spoils that, a
+/// factor too large diverges: only the largest changes count, and no more added mass than twice the liquid a body displaces.
+void BodyCoupling::raiseFactors(const std::vector<Load>& loads)
+{
+    const std::size_t n = loads.size();
+    std::vector<Eigen::Matrix<double, 6, 1>> change(n), answer(n);
+    double largest = 0;
+    for (std::size_t b = 0; b < n; ++b)
+    {
+        const double arm = radiusOfInertia(int(b));
+        change[b] << contact_[b].force - contactBefore_[b].force, (contact_[b].moment - contactBefore_[b].moment)/arm;
+        answer[b] << loads[b].force - loads_[b].force, (loads[b].moment - loads_[b].moment)/arm;
+        largest = std::max(largest, change[b].norm());
+    }
+    bool isRaised = false;
+    for (std::size_t b = 0; b < n; ++b)
+    {
         const BodyDefinition& body = setup_.bodies[b];
-        const double radius = std::sqrt(body.principalInertia.maxCoeff()/body.mass);
-        loads[b].force = values.segment<3>(6*b)*(body.mass/dt_);
-        loads[b].moment = values.segment<3>(6*b + 3)*(body.mass*radius/dt_);
+        if (change[b].norm() < 0.5*largest || change[b].norm() <= controls_.tolerance*body.mass*controls_.gravity) continue; // or noise
+        const double r = -answer[b].dot(change[b])/change[b].squaredNorm();
+        if (r <= 0 || r >= 1) continue;
+        const double wanted = std::min(1/(1 - r), 1 + 2*controls_.liquidDensity*body.volume/body.mass);
+        while (wanted >= leastFactor && 2*factors_[b] <= wanted) { factors_[b] *= 2; isRaised = true; }
+    }
+    if (isRaised) anderson_.reset(); // G is another
+}
+
+std::vector<Load> BodyCoupling::engineLoads() const
+{
+    std::vector<Load> loads(loads_);
+    for (std::size_t b = 0; b < loads.size(); ++b)
+    {
+        const double s = factors_[b];
+        if (s == 1) continue; // to the last bit
+        loads[b].force = s*loads[b].force + (s - 1)*contact_[b].force;
+        loads[b].moment = s*loads[b].moment + (s - 1)*contact_[b].moment;
     }
     return loads;
 }
 
 bool BodyCoupling::correct(const std::vector<Load>& loads)
 {
+    if (repeats_ > 0) raiseFactors(loads);
     loads_ = loads;
     guarded([&] { engine_->restore(saved_); });
-    runEngine(dt_, loads_);
+    runEngine(dt_, engineLoads());
     const Eigen::VectorXd used = scaled(contact_), found = scaled(newContact_);
     if (found.size() == 0) return true;
     const double change = (found - used).cwiseAbs().maxCoeff();
-    const double scale = found.cwiseAbs().maxCoeff() + controls_.gravity*dt_;
+    const double scale = found.cwiseAbs().maxCoeff() + controls_.gravity*dt_, before = mismatch_;
     mismatch_ = scale > 0 ? change/scale : 0;
+    if (repeats_ > 0 && mismatch_ > before) anderson_.reset(); // contacts that open or close: a plain step converges
     if (mismatch_ <= controls_.tolerance || repeats_ >= controls_.maxRepeats) return true;
     ++repeats_;
+    contactBefore_ = contact_;
     contact_ = unscaled(anderson_.next(used, found));
     return false;
 }
 
 void BodyCoupling::accept()
 {
+    for (int b = 0; b < nBodies(); ++b)
+    {
+        lastLoads_[b] = isHeld_[b] ? Load() : loads_[b]; // what holds a body takes its loads
+        // what the body has felt, where the contact it was solved with is not quite the one found
+        if (factors_[b] > 1) lastLoads_[b].force = setup_.bodies[b].mass/dt_*(result_[b].motion.velocity - states_[b].motion.velocity) - newContact_[b].force;
+        if (newContact_[b].force.isZero(0) && newContact_[b].moment.isZero(0)) factors_[b] = 1;
+    }
     states_ = result_;
     contact_ = newContact_;
-    lastLoads_ = loads_;
-    for (int b = 0; b < nBodies(); ++b) if (isHeld_[b]) lastLoads_[b] = Load(); // what holds it takes them
 }
 
 void BodyCoupling::reject()
@@ -240,18 +314,23 @@ std::vector<double> BodyCoupling::save() const
     for (const auto* loads : {&lastLoads_, &contact_})
         for (const Load& l : *loads)
             for (const Vec3* v : {&l.force, &l.moment}) data.insert(data.end(), v->data(), v->data() + 3);
+    data.insert(data.end(), factors_.begin(), factors_.end());
+    data.insert(data.end(), isHeld_.begin(), isHeld_.end());
     return data;
 }
 
 void BodyCoupling::restore(const std::vector<double>& data)
 {
-    const std::size_t tail = 12*setup_.bodies.size();
+    const std::size_t tail = 14*setup_.bodies.size();
     if (data.size() < tail) throw std::runtime_error("restart: the stored state of the bodies is too short for this case");
     const double* at = data.data() + data.size() - tail;
     for (auto* loads : {&lastLoads_, &contact_})
         for (Load& l : *loads) { get(at, l.force); get(at, l.moment); }
+    factors_.assign(at, at + factors_.size());
+    isHeld_.assign(at + factors_.size(), at + 2*factors_.size());
     guarded([&]
     {
+        engine_->setHeld(isHeld_);
         engine_->restore(DemState{std::vector<double>(data.begin(), data.end() - std::ptrdiff_t(tail))});
         result_ = engine_->states();
         newContact_.assign(newContact_.size(), Load());

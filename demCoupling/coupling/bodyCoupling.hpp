@@ -9,8 +9,12 @@
 ///
 /// Without contact before and after the step the first correct() returns true: exactly one solve a step. A prediction by DEM
 /// sub-steps would cost one more DEM run in every step.
-/// The contact is the fixed point J = G(J); its contraction is (added mass)/(mass + added mass), 0.5 to 0.7 for
-/// driftwood, hence Anderson acceleration. Rank 0 owns the engine; every rank holds the same states.
+/// The contact is the fixed point J = G(J); its contraction is r = (added mass)/(mass + added mass), 0.5 to 0.7 for
+/// driftwood, hence Anderson acceleration. Where r approaches 1 (light bodies, water shut in between body and wall) any J is nearly a
+/// fixed point: a load that presses the body into the wall is answered by the wall. So the engine is then given the body with s times its
+/// mass and the load s (F + J) - J, which is the fluid's answer for an added mass of (s - 1) m: without a change of J the path is the solved
+/// one, with s between (m + added mass)/(2 m) and twice that the contraction is a half at most. r is seen from what the fluid answers to a change of J.
+/// Bodies that have left the mesh by its diagonal are held where they are. Rank 0 owns the engine; every rank holds the same states.
 #pragma once
 
 #include "demCoupling/coupling/anderson.hpp"
@@ -28,6 +32,7 @@ struct CouplingControls
     double tolerance = 1e-2;    ///< change of contact acceleration over contact acceleration plus gravity that ends the repeats
     int maxRepeats = 8;
     double gravity = 9.81;      ///< |g| [m/s^2]
+    double liquidDensity = 1000; ///< [kg/m^3]
 };
 
 class BodyCoupling
@@ -39,6 +44,8 @@ public:
 
     void begin(double time, double dt);
     bool correct(const std::vector<Load>& loads); ///< loads: fluid and weight, constant over the step
+    /// Name of a body whose surface the last correct() put farther than `distance` [m] from where it was predicted; empty: none.
+    std::string strayBody(double distance) const;
     void accept();
     void reject();
 
@@ -55,6 +62,7 @@ public:
     const std::vector<int>& contactCounts() const { return contactCounts_; }
     const std::vector<int>& wallContactCounts() const { return wallContactCounts_; } ///< bodies that touch each wall
     bool isHeld(int body) const { return isHeld_[body]; }
+    double inertiaFactor(int body) const { return factors_[body]; } ///< s above, a power of two
 
     int repeats() const { return repeats_; }            ///< further solves needed in this step
     double mismatch() const { return mismatch_; }       ///< of the accepted contact, as CouplingControls::tolerance
@@ -69,6 +77,10 @@ private:
     void runEngine(double duration, const std::vector<Load>& loads);
     void shareResults();
     BodyState drifted(int body) const;
+    bool hasLeft(int body) const;
+    double radiusOfInertia(int body) const;
+    void raiseFactors(const std::vector<Load>& loads);
+    std::vector<Load> engineLoads() const;
     void guarded(const std::function<void()>& work) const;
     Eigen::VectorXd scaled(const std::vector<Load>& loads) const;
     std::vector<Load> unscaled(const Eigen::VectorXd& values) const;
@@ -80,7 +92,8 @@ private:
     std::unique_ptr<LiggghtsEngine> engine_;    // rank 0
     DemState saved_;                            // rank 0
     std::vector<BodyState> states_, predicted_, result_;
-    std::vector<Load> lastLoads_, loads_, contact_, newContact_, wallLoads_;
+    std::vector<Load> lastLoads_, loads_, contact_, newContact_, wallLoads_, contactBefore_;
+    std::vector<double> factors_;
     std::vector<int> contactCounts_, wallContactCounts_;
     std::vector<char> isHeld_;
     Anderson anderson_;

@@ -10,6 +10,7 @@ namespace flotsam
 namespace
 {
 
+constexpr double strayElements = 2;     // a rebound at maxBodyCo 0.5 takes a body one element from its prediction
 constexpr double poorResidual = 100;    // times the tolerance: a solve that ends above fails the step
 
 CouplingControls couplingControls(const FluidProperties& fluid, const NumericsControls& n)
@@ -18,6 +19,7 @@ CouplingControls couplingControls(const FluidProperties& fluid, const NumericsCo
     c.tolerance = n.contactTolerance;
     c.maxRepeats = n.maxContactRepeats;
     c.gravity = Vec3(fluid.gravity[0], fluid.gravity[1], fluid.gravity[2]).norm();
+    c.liquidDensity = fluid.rhoLiquid;
     return c;
 }
 
@@ -118,16 +120,23 @@ void CoupledStep::solveWithContact(StepResult& result)
         if (coupling_->correct(scene_.bodyLoads(loads_, coupling_->lastLoads(), fluid_.newLoadShare()))) break;
     }
     result.contactMismatch = coupling_->mismatch();
+    // the fluid was solved around the predicted places
+    const std::string stray = coupling_->strayBody(strayElements*smallestCutElement());
+    if (!stray.empty()) result.failure = "body '" + stray + "' ends more than " + std::to_string(int(strayElements)) + " elements from where it was predicted";
+}
+
+double CoupledStep::smallestCutElement() const
+{
+    double h = 1e300;
+    for (const CutElement& c : builder_->cover().cuts) h = std::min(h, mesh_.h[c.element]);
+    return halo_.min(h);
 }
 
 double CoupledStep::bodyCourantRate() const
 {
     const double speed = scene_.largestSpeed();
     if (speed == 0) return 0;
-    double h = 1e300;
-    for (const CutElement& c : builder_->cover().cuts) h = std::min(h, mesh_.h[c.element]);
-    h = halo_.min(h);
-    return h < 1e300 ? speed/h : 0;
+    return speed/smallestCutElement();
 }
 
 int CoupledStep::bodiesInContact() const

@@ -58,6 +58,7 @@ public:
 
 private:
     void cut(bool hasChanged);
+    double smallestCutElement() const;  ///< [m]; huge where nothing is cut
     void solveWithContact(StepResult& result);
 
     const SimplexMesh& mesh_;

@@ -34,7 +34,7 @@ struct LiggghtsEngine::Implementation
 
     explicit Implementation(const DemSetup& given)
         : setup(checked(given)), reach(given.bodies, given.walls), isHeld(given.bodies.size(), 0),
-          loads(given.bodies.size())
+          loads(given.bodies.size()), factors(given.bodies.size(), 1), applied(given.bodies.size(), 1)
     {
         model.contacts = makeContactTable(setup);
         timeStep = setup.timeStep > 0 ? setup.timeStep : contactTimeStep(setup, model.contacts);
@@ -111,8 +111,25 @@ struct LiggghtsEngine::Implementation
         state.pose.position = asVec(b.xcm[body]);
         state.pose.orientation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
         state.motion = {asVec(b.vcm[body]), asVec(b.omega[body])};
-        state.angularMomentum = asVec(b.angmom[body]);
+        state.angularMomentum = asVec(b.angmom[body]) / applied[static_cast<size_t>(body)];
         return state;
+    }
+
+    /// Exact: the factors are powers of two.
+    void scaleInertia(const std::vector<double>& wanted)
+    {
+        const BodyArrays& b = model.bodies;
+        for (int i = 0; i < b.count; ++i)
+        {
+            const double change = wanted[static_cast<size_t>(i)] / applied[static_cast<size_t>(i)];
+            b.mass[i] *= change;
+            for (int k = 0; k < 3; ++k)
+            {
+                b.inertia[i][k] *= change;
+                b.angmom[i][k] *= change;
+            }
+        }
+        applied = wanted;
     }
 
     bool isAnyTouched() const
@@ -126,24 +143,18 @@ struct LiggghtsEngine::Implementation
         return false;
     }
 
-    void checkInside() const
+    void checkMotion() const
     {
-        const Vec3 margin = Vec3::Constant((setup.box[1] - setup.box[0]).norm());
         for (int b = 0; b < model.bodies.count; ++b)
-        {
-            const Vec3 x = asVec(model.bodies.xcm[b]);
-            const std::string& name = setup.bodies[static_cast<size_t>(b)].name;
-            if (!x.allFinite() || !asVec(model.bodies.omega[b]).allFinite())
-                throw DemError("body '" + name + "': its motion is not a number (time step too large?)");
-            if (((setup.box[0] - margin - x).array() > 0).any() || ((x - setup.box[1] - margin).array() > 0).any())
-                throw DemError("body '" + name + "' has left the region of the DEM by more than its own diagonal");
-        }
+            if (!asVec(model.bodies.xcm[b]).allFinite() || !asVec(model.bodies.omega[b]).allFinite())
+                throw DemError("body '" + setup.bodies[static_cast<size_t>(b)].name + "': its motion is not a number (time step too large?)");
     }
 
     DemSetup setup;
     ReachCheck reach;
     std::vector<char> isHeld;
-    std::vector<Load> loads;
+    std::vector<Load> loads;            ///< of the bodies alone: over their factors
+    std::vector<double> factors, applied;
     LiggghtsModel model;
     double timeStep = 0;
     long subSteps = 0;
@@ -153,17 +164,20 @@ LiggghtsEngine::LiggghtsEngine(const DemSetup& setup) : impl_(std::make_unique<I
 
 LiggghtsEngine::~LiggghtsEngine() = default;
 
+void LiggghtsEngine::setInertiaFactors(const std::vector<double>& factors) { impl_->factors = factors; }
+
 void LiggghtsEngine::setLoads(const std::vector<Load>& loads)
 {
     const BodyArrays& b = impl_->model.bodies;
     if (loads.size() != static_cast<size_t>(b.count))
         throw DemError("setLoads: one load per body is needed");
-    impl_->loads = loads;
     for (int i = 0; i < b.count; ++i)
     {
         // fcm and torque hold the last total: exchanging the load there makes the first half kick right
         const Load contact = impl_->contactNow(i);
         const Load& load = loads[static_cast<size_t>(i)];
+        const double factor = impl_->factors[static_cast<size_t>(i)];
+        impl_->loads[static_cast<size_t>(i)] = {load.force / factor, load.moment / factor};
         for (int k = 0; k < 3; ++k)
         {
             b.drag[i][k] = load.force[k];
@@ -182,6 +196,7 @@ void LiggghtsEngine::advance(double duration, double largestStep)
     d.subSteps = 0;
     requestRebuild(d.model);
     d.model.tally->start();
+    d.scaleInertia(d.factors);
     for (double left = duration; left > 1e-12 * duration;)
     {
         const Implementation::Interval next = d.nextInterval(left, largestStep);
@@ -189,9 +204,10 @@ void LiggghtsEngine::advance(double duration, double largestStep)
         left -= next.duration;
     }
     d.model.tally->finish(duration);
+    d.scaleInertia(std::vector<double>(d.factors.size(), 1));
     d.model.instance.guarded([&] {
         checkBodies(d.model, d.setup);
-        d.checkInside();
+        d.checkMotion();
     });
 }
 
@@ -216,8 +232,7 @@ void LiggghtsEngine::setHeld(const std::vector<char>& isHeld)
         if ((isHeld[b] != 0) == (impl_->isHeld[b] != 0))
             continue;
         impl_->isHeld[b] = isHeld[b];
-        if (isHeld[b])
-            setMotion(impl_->model, static_cast<int>(b), {});
+        setMotion(impl_->model, static_cast<int>(b), isHeld[b] ? Motion() : impl_->setup.bodies[b].motion);
         impl_->applyMobility(static_cast<int>(b));
     }
     placeSpheres(impl_->model);

@@ -36,6 +36,9 @@ public:
     LiggghtsEngine(const LiggghtsEngine&) = delete;
     LiggghtsEngine& operator=(const LiggghtsEngine&) = delete;
 
+    /// Factors, powers of two, of mass and inertia during the coming advances, and so of what the loads must be: fluid that moves with
+    /// a body. States stay those of the body itself, to the last bit.
+    void setInertiaFactors(const std::vector<double>& factors);
     /// Constant loads (fluid force, weight, ...) for the coming advance(s); exact from the first half kick.
     void setLoads(const std::vector<Load>& loads);
 
@@ -54,7 +57,8 @@ public:
     bool hasContact() const;            ///< any contact force in any sub-step of the last advance
     long subSteps() const;              ///< of the last advance
 
-    /// Held bodies do not move (before their release time); their contact load is still computed.
+    /// Held bodies do not move (before their release time); their contact load is still computed. Let go, they get the motion of their
+    /// definition.
     void setHeld(const std::vector<char>& isHeld);
     /// Sets pose and motion (the angular momentum follows from the angular velocity). A body whose pose changes loses
     /// its contact force of the instant; restore() is the way to go back in time.

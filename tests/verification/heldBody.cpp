@@ -127,3 +127,54 @@ TEST_CASE("without contact one solve a step, and the DEM ends at the solved velo
     }
     CHECK(run.records()[0].motion.velocity[0] > 0.1);
 }
+
+TEST_CASE("a bar a hundred times lighter than the water, thrown at a stop, is stopped")
+{
+    Channel channel;
+    channel.controls = NumericsControls();
+    BodyDefinition bar = makeBar(10, Vec3(0.5, 0.47, 0.5));
+    bar.motion.velocity = Vec3(2, 0.5, 0);
+    const double stop = 0.75;
+    const DemSetup dem = makeDem(bar, stop);
+    CoupledStep run(channel.mesh, channel.halo, channel.fluid, channel.controls, channel.patches, Scene({}, {bar}, Vec3::Zero()), &dem,
+        channel.timers);
+    run.start(channel.rest(), true);
+    double fastest = 0, deepest = 0, mismatch = 0;
+    int touching = 0;
+    for (int k = 0; k < 60; ++k)
+    {
+        const StepResult result = run.step(0.02);
+        REQUIRE(result.isAccepted);
+        const BodyRecord bar = run.records()[0];
+        fastest = std::max(fastest, bar.motion.velocity.norm());
+        deepest = std::max(deepest, run.coupling()->largestOverlap());
+        mismatch = std::max(mismatch, result.contactMismatch);
+        touching += bar.contacts > 0;
+    }
+    std::printf("light bar: fastest %.3f m/s, deepest overlap %.2e m, contact mismatch %.3f, touching in %d steps\n", fastest, deepest, mismatch, touching);
+    CHECK(touching > 10);
+    CHECK(fastest < 2);
+    CHECK(deepest < 0.1*side); // the spring takes the bar and its added mass: 0.02 m if it landed on one sphere
+}
+
+TEST_CASE("a bar is held until its release, then has its velocity; beyond the mesh it is held again")
+{
+    Channel channel;
+    BodyDefinition bar = makeBar(2e6, Vec3(0.5, 0.5, 0.5));
+    bar.motion.velocity = Vec3(0, 20, 0);
+    bar.releaseTime = 0.02;
+    DemSetup dem = makeDem(bar, 1.9);
+    CoupledStep run(channel.mesh, channel.halo, channel.fluid, channel.controls, channel.patches, Scene({}, {bar}, Vec3::Zero()), &dem,
+        channel.timers);
+    run.start(channel.rest(), true);
+    for (int k = 0; k < 2; ++k) REQUIRE(run.step(0.01).isAccepted);
+    CHECK(run.records()[0].pose.position[1] == 0.5);
+    REQUIRE(run.step(0.001).isAccepted);
+    CHECK(run.records()[0].motion.velocity[1] > 5);
+    for (int k = 0; k < 60; ++k) REQUIRE(run.step(0.005).isAccepted);
+    const double place = run.records()[0].pose.position[1];
+    CHECK(place > 1 + std::sqrt(6.0)*0.9);
+    REQUIRE(run.step(0.01).isAccepted);
+    CHECK(run.records()[0].pose.position[1] == place);
+    CHECK(run.records()[0].motion.velocity.norm() == 0);
+}

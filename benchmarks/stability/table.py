@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""results/stability.csv, a row per scene, and stability.md made from it: a line per family, then what failed and how to repeat it."""
+import csv
+import os
+
+import judge
+
+FIGURES = list(judge.BOUNDS)
+COLUMNS = ["seed", "number", "family", "scene", "verdict", *FIGURES, "nodes", "cpu", "load", "status", "commit", "machine", "compiler", "date"]
+
+
+def verdict(row):
+    if row["status"] != "ok":
+        return "unfinished" if row["status"].startswith("stopped after") else "stopped"
+    return ", ".join(row["failed"]) or "passed"
+
+
+def shown(value):
+    return f"{value:.4g}" if isinstance(value, float) else str(value)
+
+
+def screen(row):
+    figures = " ".join(f"{name} {shown(row[name])}" for name in FIGURES if name in row)
+    text = figures if row["status"] == "ok" else row["status"]
+    return f"{row['number']:4d} {row['family']} ({row['scene']}): {row['verdict'].upper() if row['verdict'] != 'passed' else 'passed'}; {row.get('cpu', 0):.1f} s; {text}"
+
+
+def read(path):
+    if not os.path.isfile(path):
+        return []
+    with open(path, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def put(path, row):
+    """Stores at once."""
+    mine = (str(row["seed"]), str(row["number"]))
+    rows = [r for r in read(path) if (r["seed"], r["number"]) != mine] + [{name: shown(row.get(name, "")) for name in COLUMNS}]
+    rows.sort(key=lambda r: (int(r["seed"]), int(r["number"])))
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, COLUMNS)
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def _worst(rows, name):
+    values = [float(r[name]) for r in rows if r[name]]
+    return f"{max(values):.2g}" if values else ""
+
+
+def write(path, rows, families, bounds):
+    lines = ["# Numerical stability", "",
+             "Random scenes, each judged by properties that any stable solution has. Regenerate: `benchmarks/stability/run`; one scene again: `benchmarks/stability/run --seed S NUMBER`.",
+             "Worst figures of the scenes that ended; commit and machine of each row are in stability.csv.", "",
+             "| figure | bound | |", "|---|---|---|"]
+    lines += [f"| {name} | {'' if limit is None else limit} | {text} |" for name, (limit, text) in bounds.items()]
+    lines += ["", "| family | scenes | passed | " + " | ".join(FIGURES) + " |", "|---|---|---|" + "---|" * len(FIGURES)]
+    for family in [*families, "all"]:
+        mine = [r for r in rows if family in (r["family"], "all")]
+        if mine:
+            passed = sum(r["verdict"] == "passed" for r in mine)
+            lines.append(f"| {family} | {len(mine)} | {passed} | " + " | ".join(_worst(mine, name) for name in FIGURES) + " |")
+    lines += ["", "| seed, number | family | scene | failed | |", "|---|---|---|---|---|"]
+    for r in rows:
+        if r["verdict"] != "passed":
+            text = r["status"] if r["status"] != "ok" else ", ".join(f"{name} {r[name]}" for name in r["verdict"].split(", "))
+            lines.append(f"| {r['seed']}, {r['number']} | {r['family']} | {r['scene']} | {r['verdict']} | {text} |")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write("\n".join(lines) + "\n")
