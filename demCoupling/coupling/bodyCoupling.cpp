@@ -152,6 +152,7 @@ void BodyCoupling::begin(double time, double dt)
     anderson_.reset();
     std::vector<char> held(isHeld_);
     for (int b = 0; b < nBodies(); ++b) held[b] = time < setup_.bodies[b].releaseTime - 1e-9;
+    isAtStart_ = held == isHeld_;   // holding a body changes the engine
     isHeld_ = held;
     guarded([&]
     {
@@ -203,7 +204,8 @@ std::vector<Load> BodyCoupling::unscaled(const Eigen::VectorXd& values) const
 bool BodyCoupling::correct(const std::vector<Load>& loads)
 {
     loads_ = loads;
-    guarded([&] { engine_->restore(saved_); });
+    if (!isAtStart_) guarded([&] { engine_->restore(saved_); });
+    isAtStart_ = false;
     runEngine(dt_, loads_);
     const Eigen::VectorXd used = scaled(contact_), found = scaled(newContact_);
     if (found.size() == 0) return true;
