@@ -8,6 +8,7 @@
 #include "demCoupling/foam/runOutput.H"
 #include "foam/boundaryReader.H"
 #include "foam/caseCheck.H"
+#include "foam/cellCost.H"
 #include "foam/fieldIO.H"
 
 #include "io/stopSignal.hpp"
@@ -91,7 +92,29 @@ StepResult advance(CoupledStep& step, const TimeControls& time, double& dt, RunO
     }
 }
 
-void run(Foam::Time& runTime, Foam::fvMesh& mesh, bool isDryRun)
+/// Weights for decomposePar. Bodies and moving structures leave the cells that they cover at the start: they do not count.
+void weighCells(const Foam::fvMesh& mesh, const MeshAdapter& adapter, const Halo& halo, const BodiesInput& bodies)
+{
+    std::vector<Solid> solids;
+    for (const StructureDefinition& s : bodies.structures)
+        if (!s.motion) solids.push_back(s.solid);
+    CellCostReport report;
+    if (solids.empty()) report = writeCellCost(mesh, adapter, halo, nullptr);
+    else
+    {
+        const NodeGraph graph(adapter.mesh);
+        const Cover cover = cutMeshWithExactVolume(adapter.mesh, graph, halo, solids);
+        report = writeCellCost(mesh, adapter, halo, &cover);
+    }
+    Foam::Info<< "Elements: " << report.fluidElements << " of fluid, " << report.cutElements << " cut by fixed structures, " << report.solidElements
+        << " inside them; cost " << report.cost << " cells of fluid" << Foam::nl
+        << "Written: " << mesh.time().timeName() << "/cellCost. decomposePar uses it with  weightField cellCost;  in system/decomposeParDict"
+        << Foam::endl;
+}
+
+enum class Task { Run, Check, WeighCells };
+
+void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
 {
     PetscSession petsc(MPI_COMM_WORLD);
     const CaseControls controls = readCaseControls(runTime);
@@ -103,11 +126,9 @@ void run(Foam::Time& runTime, Foam::fvMesh& mesh, bool isDryRun)
     const Vec3 gravity(g[0], g[1], g[2]);
     const BodiesInput bodies = readBodies(mesh, adapter.mesh, halo, gravity);
     printCaseCheck(controls, adapter, halo, boundary, countScene(bodies));
-    if (isDryRun)
-    {
-        writeNumerics(Foam::Info, controls.numerics);
-        return;
-    }
+    if (task == Task::Check) writeNumerics(Foam::Info, controls.numerics);
+    if (task == Task::WeighCells) weighCells(mesh, adapter, halo, bodies);
+    if (task != Task::Run) return;
 
     PhaseTimers timers;
     const DemSetup dem = makeDemSetup(bodies, controls.numerics.demTimeStep);
@@ -177,6 +198,7 @@ int main(int argc, char* argv[])
         "A case is an interFoam case plus constant/bodies."
     );
     Foam::argList::addBoolOption("dry-run", "check the whole case, print what will be solved and skipped, memory and time; do not run");
+    Foam::argList::addBoolOption("cell-cost", "write what every cell costs, for decomposePar (weightField cellCost), into the start time; do not run");
     Foam::argList args(argc, argv);
     if (!args.checkRootCase()) Foam::FatalError.exit();
 
@@ -187,7 +209,8 @@ int main(int argc, char* argv[])
         (
             Foam::IOobject(Foam::fvMesh::defaultRegion, runTime.timeName(), runTime, Foam::IOobject::MUST_READ)
         );
-        flotsam::run(runTime, mesh, args.found("dry-run"));
+        using flotsam::Task;
+        flotsam::run(runTime, mesh, args.found("cell-cost") ? Task::WeighCells : args.found("dry-run") ? Task::Check : Task::Run);
     }
     catch (const std::exception& error)
     {

@@ -1,16 +1,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Counts the MPI messages, bytes and collective calls of a program, for LD_PRELOAD: standard profiling interface (PMPI), no
 // change of the program. At MPI_Finalize rank 0 appends one line to the file $MESSAGE_COUNTS:
-//   ranks  messages(sum max)  bytes(sum max)  allreduce(max)  other collectives(max)
-// max: largest of a rank. Start-up is in it: subtract two runs.
+//   ranks  messages(sum max)  bytes(sum max)  allreduce(max)  other collectives(max)  work of the ranks [us], one after the other
+// max: largest of a rank. Start-up is in it: subtract two runs. work: processor time outside MPI, so without what waiting
+// for another rank burns; unlike clock time it does not depend on what else the cores do.
 #include <mpi.h>
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <time.h>
 
 enum { nSlots = 1 << 16 };
 
 static long long messages, bytes, reductions, collectives;
+static long long inside;    // processor time within MPI [ns]
+
+static long long processorTime(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return 1000000000LL * now.tv_sec + now.tv_nsec;
+}
+
+// RESULT_OF(call): its result, its time charged to MPI
+#define RESULT_OF(call) \
+    const long long before = processorTime(); \
+    const int result = call; \
+    inside += processorTime() - before; \
+    return result;
 
 // persistent sends: size of the message that MPI_Start sends
 static struct { MPI_Request request; long long bytes; int destination; } persistent[nSlots];
@@ -48,13 +65,13 @@ static void countStart(MPI_Request request)
     int MPI_##name(SEND_PARAMETERS) \
     { \
         countSend(sizeOf(count, type), destination); \
-        return PMPI_##name(data, count, type, destination, tag, comm); \
+        RESULT_OF(PMPI_##name(data, count, type, destination, tag, comm)) \
     }
 #define NONBLOCKING(name) \
     int MPI_##name(SEND_PARAMETERS, MPI_Request* request) \
     { \
         countSend(sizeOf(count, type), destination); \
-        return PMPI_##name(data, count, type, destination, tag, comm, request); \
+        RESULT_OF(PMPI_##name(data, count, type, destination, tag, comm, request)) \
     }
 #define PERSISTENT(name) \
     int MPI_##name(SEND_PARAMETERS, MPI_Request* request) \
@@ -75,7 +92,7 @@ static int isShared(MPI_Comm comm)
 }
 
 #define COLLECTIVE(name, counter, parameters, arguments) \
-    int MPI_##name parameters { counter += isShared(c); return PMPI_##name arguments; }
+    int MPI_##name parameters { counter += isShared(c); RESULT_OF(PMPI_##name arguments) }
 
 BLOCKING(Send)
 BLOCKING(Ssend)
@@ -102,21 +119,37 @@ int MPI_Recv_init(void* data, int count, MPI_Datatype type, int source, int tag,
 int MPI_Start(MPI_Request* request)
 {
     countStart(*request);
-    return PMPI_Start(request);
+    RESULT_OF(PMPI_Start(request))
 }
 
 int MPI_Startall(int count, MPI_Request requests[])
 {
     for (int i = 0; i < count; ++i) countStart(requests[i]);
-    return PMPI_Startall(count, requests);
+    RESULT_OF(PMPI_Startall(count, requests))
 }
 
 int MPI_Sendrecv(const void* sent, int sentCount, MPI_Datatype sentType, int destination, int sentTag, void* received, int count,
     MPI_Datatype type, int source, int tag, MPI_Comm comm, MPI_Status* status)
 {
     countSend(sizeOf(sentCount, sentType), destination);
-    return PMPI_Sendrecv(sent, sentCount, sentType, destination, sentTag, received, count, type, source, tag, comm, status);
+    RESULT_OF(PMPI_Sendrecv(sent, sentCount, sentType, destination, sentTag, received, count, type, source, tag, comm, status))
 }
+
+// where a rank waits
+#define WAITING(name, parameters, arguments) \
+    int MPI_##name parameters { RESULT_OF(PMPI_##name arguments) }
+
+WAITING(Recv, (void* a, int n, MPI_Datatype t, int source, int tag, MPI_Comm c, MPI_Status* s), (a, n, t, source, tag, c, s))
+WAITING(Irecv, (void* a, int n, MPI_Datatype t, int source, int tag, MPI_Comm c, MPI_Request* r), (a, n, t, source, tag, c, r))
+WAITING(Wait, (MPI_Request* r, MPI_Status* s), (r, s))
+WAITING(Waitall, (int n, MPI_Request r[], MPI_Status* s), (n, r, s))
+WAITING(Waitany, (int n, MPI_Request r[], int* i, MPI_Status* s), (n, r, i, s))
+WAITING(Waitsome, (int n, MPI_Request r[], int* done, int i[], MPI_Status* s), (n, r, done, i, s))
+WAITING(Test, (MPI_Request* r, int* flag, MPI_Status* s), (r, flag, s))
+WAITING(Testall, (int n, MPI_Request r[], int* flag, MPI_Status* s), (n, r, flag, s))
+WAITING(Testany, (int n, MPI_Request r[], int* i, int* flag, MPI_Status* s), (n, r, i, flag, s))
+WAITING(Probe, (int source, int tag, MPI_Comm c, MPI_Status* s), (source, tag, c, s))
+WAITING(Iprobe, (int source, int tag, MPI_Comm c, int* flag, MPI_Status* s), (source, tag, c, flag, s))
 
 COLLECTIVE(Allreduce, reductions, (const void* a, void* b, int n, MPI_Datatype t, MPI_Op o, MPI_Comm c), (a, b, n, t, o, c))
 COLLECTIVE(Iallreduce, reductions, (const void* a, void* b, int n, MPI_Datatype t, MPI_Op o, MPI_Comm c, MPI_Request* r), (a, b, n, t, o, c, r))
@@ -137,6 +170,7 @@ COLLECTIVE(Alltoallv, collectives, (const void* a, const int n[], const int d[],
 
 static void report(void)
 {
+    const long long work = (processorTime() - inside) / 1000;
     int rank = 0, size = 1;
     PMPI_Comm_rank(MPI_COMM_WORLD, &rank);
     PMPI_Comm_size(MPI_COMM_WORLD, &size);
@@ -144,11 +178,18 @@ static void report(void)
     long long sum[4], largest[4];
     PMPI_Reduce(mine, sum, 4, MPI_LONG_LONG, MPI_SUM, 0, MPI_COMM_WORLD);
     PMPI_Reduce(mine, largest, 4, MPI_LONG_LONG, MPI_MAX, 0, MPI_COMM_WORLD);
+    long long* works = malloc((size_t)size * sizeof *works);
+    PMPI_Gather(&work, 1, MPI_LONG_LONG, works, 1, MPI_LONG_LONG, 0, MPI_COMM_WORLD);
     const char* name = getenv("MESSAGE_COUNTS");
     FILE* file = rank == 0 && name ? fopen(name, "a") : 0;
-    if (!file) return;
-    fprintf(file, "%d %lld %lld %lld %lld %lld %lld\n", size, sum[0], largest[0], sum[1], largest[1], largest[2], largest[3]);
-    fclose(file);
+    if (file)
+    {
+        fprintf(file, "%d %lld %lld %lld %lld %lld %lld", size, sum[0], largest[0], sum[1], largest[1], largest[2], largest[3]);
+        for (int i = 0; i < size; ++i) fprintf(file, " %lld", works[i]);
+        fprintf(file, "\n");
+        fclose(file);
+    }
+    free(works);
 }
 
 int MPI_Finalize(void)

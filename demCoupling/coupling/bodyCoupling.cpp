@@ -156,6 +156,7 @@ void BodyCoupling::begin(double time, double dt)
     anderson_.reset();
     std::vector<char> held(isHeld_);
     for (int b = 0; b < nBodies(); ++b) held[b] = time < setup_.bodies[b].releaseTime - 1e-9 || hasLeft(b);
+    isAtStart_ = true;
     isHeld_ = held;
     guarded([&]
     {
@@ -270,7 +271,8 @@ bool BodyCoupling::correct(const std::vector<Load>& loads)
 {
     if (repeats_ > 0) raiseFactors(loads);
     loads_ = loads;
-    guarded([&] { engine_->restore(saved_); });
+    if (!isAtStart_) guarded([&] { engine_->restore(saved_); });
+    isAtStart_ = false;
     runEngine(dt_, engineLoads());
     const Eigen::VectorXd used = scaled(contact_), found = scaled(newContact_);
     if (found.size() == 0) return true;

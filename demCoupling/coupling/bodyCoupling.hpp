@@ -91,6 +91,7 @@ private:
     int rank_ = 0;
     std::unique_ptr<LiggghtsEngine> engine_;    // rank 0
     DemState saved_;                            // rank 0
+    bool isAtStart_ = false;                    // the engine is in the state saved_: no restore, which rebuilds the neighbour lists
     std::vector<BodyState> states_, predicted_, result_;
     std::vector<Load> lastLoads_, loads_, contact_, newContact_, wallLoads_, contactBefore_;
     std::vector<double> factors_;
