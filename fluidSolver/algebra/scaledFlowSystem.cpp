@@ -7,27 +7,11 @@
 namespace flotsam
 {
 
-namespace
-{
-
-template<int D>
-void invert(const double* a, double ghost, float* inverse)
-{
-    Eigen::Matrix<double, D, D, Eigen::RowMajor> m;
-    for (int r = 0; r < D; ++r)
-        for (int c = 0; c < D; ++c) m(r, c) = a[r*D + c] + (r == c ? ghost : 0);
-    Eigen::Map<Eigen::Matrix<float, D, D, Eigen::RowMajor>> result(inverse);
-    result = m.inverse().template cast<float>();
-}
-
-} // namespace
-
 ScaledFlowSystem::ScaledFlowSystem(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo)
-:   mesh_(mesh), graph_(graph), halo_(halo), B_(mesh.dim + 1), pressure_(mesh, graph, halo), solids_(halo)
+:   mesh_(mesh), graph_(graph), halo_(halo), B_(mesh.dim + 1), velocity_(graph, mesh.nOwned, mesh.dim), pressure_(mesh, graph, halo), solids_(halo)
 {
     const std::size_t n = mesh.nOwned;
     scale_.resize(n*B_);
-    velocityInverse_.resize(n*mesh.dim*mesh.dim);
     viscousPressure_.resize(n);
     local_.resize(std::size_t(mesh.nNodes)*B_);
     pressureLocal_.resize(mesh.nNodes);
@@ -60,13 +44,12 @@ void ScaledFlowSystem::setDiagonals()
             ghost[g.node[j]] += g.velocityFactor*g.jumpVelocity[j]*g.jumpVelocity[j];
             ghostPressure[g.node[j]] += g.pressureFactor*g.jumpPressure[j]*g.jumpPressure[j];
         }
+    velocity_.set(*system_, ghost);
     for (int i = 0; i < mesh_.nOwned; ++i)
     {
-        float* inverse = &velocityInverse_[std::size_t(i)*D*D];
         double* s = &scale_[std::size_t(i)*B_];
         if (!system_->isActive[i])
         {
-            std::fill(inverse, inverse + D*D, 0.0f);
             std::fill(s, s + B_, 1.0);
             viscousPressure_[i] = 0;
             continue;
@@ -74,7 +57,6 @@ void ScaledFlowSystem::setDiagonals()
         const double* a = &system_->matrix.velocity[std::size_t(graph_.diagonal[i])*D*D];
         double trace = 0;
         for (int r = 0; r < D; ++r) trace += a[r*D + r] + ghost[i];
-        invert<D>(a, ghost[i], inverse);
         std::fill(s, s + D, 1/std::sqrt(trace/D));
         // PSPG and ghost terms act beside the viscous part and bound its inverse where the fluid part is a sliver
         viscousPressure_[i] = float(1/(system_->pressureMass[i] + system_->matrix.pressure[graph_.diagonal[i]] + ghostPressure[i]));
@@ -128,27 +110,6 @@ void ScaledFlowSystem::multiply(const double* x, double* y)
     finishProduct(product(), y, nullptr);
 }
 
-/// Velocity by its diagonal blocks, into local_.
-template<int D>
-void ScaledFlowSystem::startVelocity(const double* r)
-{
-    constexpr int B = D + 1;
-    for (int i = 0; i < mesh_.nOwned; ++i)
-    {
-        const float* m = &velocityInverse_[std::size_t(i)*D*D];
-        const double* ri = r + std::size_t(i)*B;
-        const double unscaled = 1/scale_[std::size_t(i)*B]; // one for the node's velocity
-        double* z = &local_[std::size_t(i)*B];
-        for (int a = 0; a < D; ++a)
-        {
-            double sum = 0;
-            for (int b = 0; b < D; ++b) sum += m[a*D + b]*ri[b];
-            z[a] = sum*unscaled;
-        }
-        z[D] = 0;
-    }
-}
-
 /// pressureLocal_ = S^-1 (r_p - D z_u), z_u in local_ and q_.
 void ScaledFlowSystem::solvePressure(const double* r)
 {
@@ -166,31 +127,11 @@ void ScaledFlowSystem::solvePressure(const double* r)
     halo_.update(pressureLocal_.data(), 1);
 }
 
-/// Takes the pressure's part from the velocity in local_ and sets the pressure beside it.
-template<int D>
-void ScaledFlowSystem::correctVelocity()
-{
-    constexpr int B = D + 1;
-    for (int i = 0; i < mesh_.nOwned; ++i)
-    {
-        const float* m = &velocityInverse_[std::size_t(i)*D*D];
-        const double* g = &gradient_[std::size_t(i)*D];
-        double* z = &local_[std::size_t(i)*B];
-        for (int a = 0; a < D; ++a)
-        {
-            double sum = 0;
-            for (int b = 0; b < D; ++b) sum += m[a*D + b]*g[b];
-            z[a] -= sum;
-        }
-        z[D] = pressureLocal_[i];
-    }
-}
-
 /// local_ (owned nodes), q_ = preconditioner times r, without the scaling of the columns; gradient_ is that of its pressure.
 void ScaledFlowSystem::preconditionUnscaled(const double* r)
 {
     const FlowOperator op = product();
-    if (mesh_.dim == 2) startVelocity<2>(r); else startVelocity<3>(r);
+    velocity_.solve(r, scale_.data(), local_.data());
     op.project(local_.data());
     halo_.update(local_.data(), B_);
     if (!solids_.isEmpty())
@@ -200,7 +141,8 @@ void ScaledFlowSystem::preconditionUnscaled(const double* r)
     }
     solvePressure(r);
     op.gradient(pressureLocal_.data(), gradient_.data());
-    if (mesh_.dim == 2) correctVelocity<2>(); else correctVelocity<3>();
+    velocity_.subtractDiagonal(gradient_.data(), local_.data());
+    for (int i = 0; i < mesh_.nOwned; ++i) local_[std::size_t(i)*B_ + B_ - 1] = pressureLocal_[i];
     op.project(local_.data());
     if (solids_.isEmpty()) return;
     op.solidRowsOfPressure(pressureLocal_.data(), qRows_.data());

@@ -6,6 +6,7 @@
 #include "algebra/flowOperator.hpp"
 #include "algebra/pressureHierarchy.hpp"
 #include "algebra/solidUnknowns.hpp"
+#include "algebra/velocityBlock.hpp"
 
 namespace flotsam
 {
@@ -33,8 +34,6 @@ public:
 
 private:
     template<int D> void setDiagonals();
-    template<int D> void startVelocity(const double* r);
-    template<int D> void correctVelocity();
     void solvePressure(const double* r);
     void addPressureSources(double* r) const;
     void preconditionUnscaled(const double* r);
@@ -48,13 +47,13 @@ private:
     const Halo& halo_;
     const int B_;
     const FlowSystem* system_ = nullptr;
+    VelocityBlock velocity_;
     PressureHierarchy pressure_;
     SolidUnknowns solids_;
 
     double fluidVolume_ = 0;                // of all active nodes; only without a pressure level
     std::vector<double> scale_;             // nOwned*B: 1/sqrt(diagonal)
-    std::vector<float> velocityInverse_;    // nOwned*dim*dim; only preconditions, like the next
-    std::vector<float> viscousPressure_;    // nOwned: inverse of the viscous part of the Schur complement, lumped
+    std::vector<float> viscousPressure_;    // nOwned: inverse of the viscous part of the Schur complement, lumped; only preconditions
     std::vector<double> local_;             // work: nNodes*B, unscaled
     std::vector<double> pressureRows_, gradient_; // work: nOwned, nOwned*dim
     std::vector<double> pressureLocal_;     // work: nNodes

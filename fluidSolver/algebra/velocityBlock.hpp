@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Approximate inverse of the velocity block K of a FlowSystem, which only preconditions: the diagonal blocks (single precision), in 2D with a
+/// symmetric Gauss-Seidel sweep on these among a rank's own nodes. grad-div couples neighbours about as strongly as their masses do, and
+/// diagonal blocks alone take a third more iterations. In 3D, where K is most of what an iteration reads, the sweep costs what it saves.
+#pragma once
+
+#include "algebra/flowSystem.hpp"
+
+namespace flotsam
+{
+
+class VelocityBlock
+{
+public:
+    VelocityBlock(const NodeGraph& graph, int nOwned, int dim) : graph_(graph), nOwned_(nOwned), inverse_(std::size_t(nOwned)*dim*dim) {}
+
+    /// ghost: what the ghost faces add to the diagonal of each node. Prescribed directions are left out: the inverse gives 0 there.
+    void set(const FlowSystem& system, const std::vector<double>& ghost);
+
+    /// z (dim+1 values a node, velocity first; the pressures become 0) = approximate inverse times the momentum rows of r, which were
+    /// multiplied by scale (dim+1 values a node, one for the node's velocity).
+    void solve(const double* r, const double* scale, double* z) const;
+
+    /// Takes the inverse diagonal blocks times g (dim values a node) from the velocities of z.
+    void subtractDiagonal(const double* g, double* z) const;
+
+private:
+    template<int D> void setT(const FlowSystem& system, const std::vector<double>& ghost);
+    template<int D> void solveDiagonal(const double* r, const double* scale, double* z) const;
+    template<int D> void sweep(const double* r, const double* scale, double* z) const;
+    template<int D> void subtractT(const double* g, double* z) const;
+
+    const NodeGraph& graph_;
+    const int nOwned_;
+    const FlowSystem* system_ = nullptr;
+    std::vector<float> inverse_;    // nOwned*dim*dim
+};
+
+} // namespace flotsam
