@@ -331,7 +331,7 @@ def moving(s):
     motion = {"oscillating": lambda L: f"type oscillating; direction (1 {s.slant:.4g} 0); amplitude {0.1 * L:.9g}; frequency {rate * math.sqrt(GRAVITY / L) / 2:.9g};",
               "rotating": lambda L: f"type rotating; axis (0 0 1); omega {4 * rate * math.sqrt(GRAVITY / L):.9g};",
               "linear": lambda L: f"type linear; velocity (0 {-0.3 * rate * math.sqrt(GRAVITY * L):.9g} 0);"}[kind]
-    _plate(s, 0.5 + s.slant * 0, y, a, b, entries="contact off;")
+    _plate(s, 0.5, y, a, b, entries="contact off;")
     s.structures[0].motion = motion
     s.forced, s.openTop = True, True
     s.what.append(kind)
@@ -383,7 +383,7 @@ def bigSteps(s):
 def properties(s):
     """Density ratio 1 to 1e4, viscosities from none to syrup."""
     _pick(s.rng, tank, damBreak, splash, thrown, structures)(s)
-    ratio, before = _pick(s.rng, 1, 1.2, 10, _log(s.rng, 1, 1e4), 1e4), s.rho[0]
+    ratio = _pick(s.rng, 1, 1.2, 10, _log(s.rng, 1, 1e4), 1e4)
     s.rho = (1000, 1000 / ratio)
     liquid = _pick(s.rng, 1e-9, _log(s.rng, 1e-6, 1e3))
     s.mu = (liquid, liquid / _log(s.rng, 1e-2, 1e4))

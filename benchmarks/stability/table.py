@@ -44,7 +44,7 @@ def put(path, row):
 
 
 def _worst(rows, name):
-    values = [float(r[name]) for r in rows if r[name]]
+    values = [float(r[name]) for r in rows if r[name] and r["status"] == "ok"]
     return f"{max(values):.2g}" if values else ""
 
 
