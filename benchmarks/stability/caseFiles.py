@@ -77,7 +77,8 @@ class SceneCase:
         names = self._patches()
         chosen = lambda entries: {name: entries[name] for name in names}       # noqa: E731
         fields = [("U", u, velocity), ("p_rgh", p, None)] + ([] if s.oneFluid else [("alpha.water", a, alpha)])
-        return {path: text if values is None else filled(text, values) for name, entries, values in fields for path, text in files.field(name, chosen(entries)).items()}
+        return {path: text if values is None else filled(text, values)
+                for name, entries, values in fields for path, text in files.field(name, chosen(entries)).items()}
 
     def _inlet(self):
         """Water below inflowDepth, a wall above."""
@@ -111,8 +112,10 @@ class SceneCase:
         if s.bodies:
             thin = min(b.thin for b in s.bodies) * s.length
             mass = max((b.density + s.rho[0]) * b.volume for b in s.bodies) * s.length**3
-            text += f"contact {{ default {{ stiffness {mass * (s.speed / (0.05 * thin))**2:.6g}; restitution {s.rng.uniform(0.1, 0.9):.3g}; frictionAngle {s.rng.uniform(0, 45):.3g}; }} }}\n"
-        text += "structures\n{\n" + "".join(self._solid(x, x.entries + (f" motion {{ {x.motion(s.length)} }}" if hasattr(x, "motion") else "")) for x in s.structures) + "}\n"
+            text += (f"contact {{ default {{ stiffness {mass * (s.speed / (0.05 * thin))**2:.6g}; restitution {s.rng.uniform(0.1, 0.9):.3g}; "
+                     f"frictionAngle {s.rng.uniform(0, 45):.3g}; }} }}\n")
+        motions = [f" motion {{ {x.motion(s.length)} }}" if hasattr(x, "motion") else "" for x in s.structures]
+        text += "structures\n{\n" + "".join(self._solid(x, x.entries + m) for x, m in zip(s.structures, motions)) + "}\n"
         text += "bodies\n{\n"
         for b in s.bodies:
             text += self._solid(b, f"density {b.density:.9g}; velocity {_vector(b.velocity)}; angularVelocity {_vector(b.spin)}; releaseTime {b.release:.6g};")

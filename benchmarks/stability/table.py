@@ -22,7 +22,8 @@ def shown(value):
 def screen(row):
     figures = " ".join(f"{name} {shown(row[name])}" for name in FIGURES if name in row)
     text = figures if row["status"] == "ok" else row["status"]
-    return f"{row['number']:4d} {row['family']} ({row['scene']}): {row['verdict'].upper() if row['verdict'] != 'passed' else 'passed'}; {row.get('cpu', 0):.1f} s; {text}"
+    verdict = row["verdict"] if row["verdict"] == "passed" else row["verdict"].upper()
+    return f"{row['number']:4d} {row['family']} ({row['scene']}): {verdict}; {row.get('cpu', 0):.1f} s; {text}"
 
 
 def read(path):
@@ -50,7 +51,8 @@ def _worst(rows, name):
 
 def write(path, rows, families, bounds):
     lines = ["# Numerical stability", "",
-             "Random scenes, each judged by properties that any stable solution has. Regenerate: `benchmarks/stability/run`; one scene again: `benchmarks/stability/run --seed S NUMBER`.",
+             "Random scenes, each judged by properties that any stable solution has. Regenerate: `benchmarks/stability/run`; "
+             "one scene again: `benchmarks/stability/run --seed S NUMBER`.",
              "Worst figures of the scenes that ended; commit and machine of each row are in stability.csv.", "",
              "| figure | bound | |", "|---|---|---|"]
     lines += [f"| {name} | {'' if limit is None else limit} | {text} |" for name, (limit, text) in bounds.items()]

@@ -17,6 +17,7 @@ namespace
 
 constexpr double solverTolerance = 1e-10;
 constexpr int solverIterations = 200;
+constexpr double runaway = 1;       // beyond 0 and 1; overshoots of this form are some tenths
 
 } // namespace
 
@@ -251,6 +252,11 @@ TransportReport PhaseFieldSupg::advance(std::vector<double>& alpha, double dt, c
     }
     report.minAlpha = halo_.min(report.minAlpha);
     report.maxAlpha = halo_.max(report.maxAlpha);
+    if (report.minAlpha < -runaway || report.maxAlpha > 1 + runaway)
+    {
+        throw std::runtime_error("phase field (SUPG): alpha from " + std::to_string(report.minAlpha) + " to " + std::to_string(report.maxAlpha)
+            + ": this form has become unstable; dualCellTransport yes keeps alpha between 0 and 1");
+    }
     if (cover)
     {
         liquidVolume_ = report.liquidAfter;
