@@ -13,7 +13,7 @@ namespace
 constexpr int perBody = 7 + 6 + 3 + 6 + 1; // pose, motion, angular momentum, contact load, contact count
 constexpr int perWall = 6 + 1;              // contact load, contact count
 
-constexpr double leastFactor = 4;           // of the inertia in contact; below, repeats converge by themselves
+constexpr double leastFactor = 8;           // of the inertia in contact; below, repeats converge by themselves, and in a jam the factors of neighbours disturb each other
 
 void put(double*& at, const Vec3& v) { for (int d = 0; d < 3; ++d) *at++ = v[d]; }
 void get(const double*& at, Vec3& v) { for (int d = 0; d < 3; ++d) v[d] = *at++; }
