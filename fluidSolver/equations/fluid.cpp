@@ -134,6 +134,20 @@ void Fluid::extendPhase()
     halo_.update(state_.alpha, 1);
 }
 
+/// Gravity per element, into force_; cover: of what is computed.
+void Fluid::setGravity(const Cover* cover)
+{
+    std::vector<double> rho(mesh_.nNodes), ofSurface;
+    for (int i = 0; i < mesh_.nNodes; ++i) rho[i] = density(fluid_, controls_, fluid_.isTwoPhase ? state_.alpha[i] : 1);
+    const bool isBalanced = fluid_.isTwoPhase && controls_.balancedGravity;
+    if (isBalanced)
+    {
+        propagateInterfacePlanes(mesh_, graph_, halo_, state_.alpha, transport_.width(), controls_.gravityLayers, planes_, cover_);
+        surfaceDensity(mesh_, fluid_, controls_, planes_, transport_.width(), state_.alpha, ofSurface);
+    }
+    gravityForce(mesh_, fluid_.gravity, rho, isBalanced ? &planes_ : nullptr, ofSurface, cover, force_);
+}
+
 void Fluid::assemble()
 {
     const Cover* cover = cover_;
@@ -142,17 +156,7 @@ void Fluid::assemble()
         gas_->choose(state_.alpha, cover_);
         cover = &gas_->cover(cover_);
     }
-    std::vector<double> rho(mesh_.nNodes);
-    for (int i = 0; i < mesh_.nNodes; ++i) rho[i] = density(fluid_, controls_, fluid_.isTwoPhase ? state_.alpha[i] : 1);
-    const bool isBalanced = fluid_.isTwoPhase && controls_.balancedGravity;
-    std::vector<double> ofSurface;
-    if (isBalanced)
-    {
-        propagateInterfacePlanes(mesh_, graph_, halo_, state_.alpha, transport_.width(), controls_.gravityLayers, planes_, cover_);
-        surfaceDensity(mesh_, fluid_, controls_, planes_, transport_.width(), state_.alpha, ofSurface);
-    }
-    gravityForce(mesh_, fluid_.gravity, rho, isBalanced ? &planes_ : nullptr, ofSurface, cover, force_);
-
+    setGravity(cover);
     FlowStepData step;
     step.time = time_;
     step.state = &state_;
@@ -165,8 +169,12 @@ void Fluid::assemble()
     step.transport = fluid_.isTwoPhase && !supg_ ? &transport_ : nullptr;
     equation_.assemble(step);
     equation_.system().isNewMatrix = true;
+    setFirstGuess();
+}
 
-    // start: extrapolated velocity and pressure (10 to 20 % less time than with the last pressure)
+/// Velocity and pressure extrapolated in time (10 to 20 % less time than with the last pressure); solids with the velocity they have.
+void Fluid::setFirstGuess()
+{
     const int dim = mesh_.dim, B = dim + 1, nDof = equation_.system().nDof;
     x_.resize(std::size_t(mesh_.nNodes)*B);
     for (int i = 0; i < mesh_.nNodes; ++i)

@@ -80,6 +80,8 @@ private:
     void evaluatePatches(double time);
     void moveInactiveNodes();
     void extendPhase();
+    void setGravity(const Cover* cover);
+    void setFirstGuess();
     TransportReport advancePhase(double dt);
     const std::vector<double>& halfStep(const std::vector<double>& now, const std::vector<double>& old, double dt,
         std::vector<double>& work) const;
