@@ -30,8 +30,19 @@ void ScaledFlowSystem::set(const FlowSystem& system)
     for (int i = 0; i < mesh_.nOwned && !system.hasPressureLevel; ++i)
         if (system.isActive[i]) fluidVolume_ += system.dualVolume[i];
     fluidVolume_ = halo_.sum(fluidVolume_);
+    if (system.isNewMatrix) updatePressure();
+}
+
+void ScaledFlowSystem::updatePressure()
+{
     for (int i = 0; i < mesh_.nOwned; ++i) pressureRows_[i] = scale_[std::size_t(i)*B_ + B_ - 1];
-    if (system.isNewMatrix) pressure_.update(system, pressureRows_);
+    pressure_.update(*system_, pressureRows_);
+}
+
+void ScaledFlowSystem::renewPressure()
+{
+    pressure_.forget();
+    updatePressure();
 }
 
 template<int D>

@@ -31,9 +31,12 @@ public:
     void addTo(std::vector<double>& x, std::vector<double>& q, const double* solution);
 
     PressureHierarchy& pressure() { return pressure_; }
+    /// A new pressure hierarchy at once. Collective.
+    void renewPressure();
 
 private:
     template<int D> void setDiagonals();
+    void updatePressure();
     void solvePressure(const double* r);
     void addPressureSources(double* r) const;
     void preconditionUnscaled(const double* r);
