@@ -24,14 +24,6 @@ Block<D> freeDirections(const NodeConstraint& c)
     return result;
 }
 
-/// sum -= K v
-template<int D>
-inline void subtractProduct(const double* K, const double* v, double* sum)
-{
-    for (int a = 0; a < D; ++a)
-        for (int b = 0; b < D; ++b) sum[a] -= K[a*D + b]*v[b];
-}
-
 template<int D>
 inline void product(const float* m, const double* v, double* result)
 {
@@ -67,7 +59,7 @@ void VelocityBlock::setT(const FlowSystem& system, const std::vector<double>& gh
 }
 
 template<int D>
-void VelocityBlock::solveDiagonal(const double* r, const double* scale, double* z) const
+void VelocityBlock::solveT(const double* r, const double* scale, double* z) const
 {
     constexpr int B = D + 1;
     for (int i = 0; i < nOwned_; ++i)
@@ -77,32 +69,6 @@ void VelocityBlock::solveDiagonal(const double* r, const double* scale, double* 
         for (int a = 0; a < D; ++a) sum[a] = r[std::size_t(i)*B + a]*unscaled;
         product<D>(&inverse_[std::size_t(i)*D*D], sum, z + std::size_t(i)*B);
         z[std::size_t(i)*B + D] = 0;
-    }
-}
-
-/// (diagonal + upper part)^-1 diagonal (diagonal + lower part)^-1, on the rank's own nodes.
-template<int D>
-void VelocityBlock::sweep(const double* r, const double* scale, double* z) const
-{
-    constexpr int B = D + 1;
-    const int* column = graph_.column.data();
-    const double* K = system_->matrix.velocity.data();
-    for (int i = 0; i < nOwned_; ++i)
-    {
-        double sum[D];
-        const double unscaled = 1/scale[std::size_t(i)*B];
-        for (int a = 0; a < D; ++a) sum[a] = r[std::size_t(i)*B + a]*unscaled;
-        for (int k = graph_.rowStart[i]; k < graph_.diagonal[i]; ++k) subtractProduct<D>(K + std::size_t(k)*D*D, z + std::size_t(column[k])*B, sum);
-        product<D>(&inverse_[std::size_t(i)*D*D], sum, z + std::size_t(i)*B);
-        z[std::size_t(i)*B + D] = 0;
-    }
-    for (int i = nOwned_ - 1; i >= 0; --i)
-    {
-        double sum[D] = {}, change[D];
-        for (int k = graph_.rowStart[i + 1] - 1; k > graph_.diagonal[i]; --k)   // the node that has just changed comes last
-            if (column[k] < nOwned_) subtractProduct<D>(K + std::size_t(k)*D*D, z + std::size_t(column[k])*B, sum);
-        product<D>(&inverse_[std::size_t(i)*D*D], sum, change);
-        for (int a = 0; a < D; ++a) z[std::size_t(i)*B + a] += change[a];
     }
 }
 
@@ -119,18 +85,17 @@ void VelocityBlock::subtractT(const double* g, double* z) const
 
 void VelocityBlock::set(const FlowSystem& system, const std::vector<double>& ghost)
 {
-    system_ = &system;
-    if (system.dim == 2) setT<2>(system, ghost); else setT<3>(system, ghost);
+    if (dim_ == 2) setT<2>(system, ghost); else setT<3>(system, ghost);
 }
 
 void VelocityBlock::solve(const double* r, const double* scale, double* z) const
 {
-    if (system_->dim == 2) sweep<2>(r, scale, z); else solveDiagonal<3>(r, scale, z);
+    if (dim_ == 2) solveT<2>(r, scale, z); else solveT<3>(r, scale, z);
 }
 
 void VelocityBlock::subtractDiagonal(const double* g, double* z) const
 {
-    if (system_->dim == 2) subtractT<2>(g, z); else subtractT<3>(g, z);
+    if (dim_ == 2) subtractT<2>(g, z); else subtractT<3>(g, z);
 }
 
 } // namespace flotsam

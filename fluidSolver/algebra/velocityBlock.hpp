@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Approximate inverse of the velocity block K of a FlowSystem, which only preconditions: the diagonal blocks (single precision), in 2D with a
-/// symmetric Gauss-Seidel sweep on these among a rank's own nodes. grad-div couples neighbours about as strongly as their masses do, and
-/// diagonal blocks alone take a third more iterations. In 3D, where K is most of what an iteration reads, the sweep costs what it saves.
+/// Approximate inverse of the velocity block of a FlowSystem, which only preconditions: its diagonal blocks, in single precision. A symmetric
+/// Gauss-Seidel sweep takes a quarter of the iterations away, but makes forces noisy in 2D and costs what it saves in 3D (docs/numerics.md, section 5).
 #pragma once
 
 #include "algebra/flowSystem.hpp"
@@ -12,7 +11,7 @@ namespace flotsam
 class VelocityBlock
 {
 public:
-    VelocityBlock(const NodeGraph& graph, int nOwned, int dim) : graph_(graph), nOwned_(nOwned), inverse_(std::size_t(nOwned)*dim*dim) {}
+    VelocityBlock(const NodeGraph& graph, int nOwned, int dim) : graph_(graph), nOwned_(nOwned), dim_(dim), inverse_(std::size_t(nOwned)*dim*dim) {}
 
     /// ghost: what the ghost faces add to the diagonal of each node. Prescribed directions are left out: the inverse gives 0 there.
     void set(const FlowSystem& system, const std::vector<double>& ghost);
@@ -26,13 +25,11 @@ public:
 
 private:
     template<int D> void setT(const FlowSystem& system, const std::vector<double>& ghost);
-    template<int D> void solveDiagonal(const double* r, const double* scale, double* z) const;
-    template<int D> void sweep(const double* r, const double* scale, double* z) const;
+    template<int D> void solveT(const double* r, const double* scale, double* z) const;
     template<int D> void subtractT(const double* g, double* z) const;
 
     const NodeGraph& graph_;
-    const int nOwned_;
-    const FlowSystem* system_ = nullptr;
+    const int nOwned_, dim_;
     std::vector<float> inverse_;    // nOwned*dim*dim
 };
 
