@@ -12,19 +12,6 @@ namespace
 template<int D> using Block = Eigen::Matrix<double, D, D, Eigen::RowMajor>;
 
 template<int D>
-Block<D> freeDirections(const NodeConstraint& c)
-{
-    if (c.nDirections >= D) return Block<D>::Zero();
-    Block<D> result = Block<D>::Identity();
-    for (int k = 0; k < c.nDirections; ++k)
-    {
-        const Eigen::Map<const Eigen::Matrix<double, D, 1>> n(c.direction[k]);
-        result -= n*n.transpose();
-    }
-    return result;
-}
-
-template<int D>
 inline void product(const float* m, const double* v, double* result)
 {
     for (int a = 0; a < D; ++a)
@@ -50,11 +37,6 @@ void VelocityBlock::setT(const FlowSystem& system, const std::vector<double>& gh
         const Eigen::Map<const Block<D>> diagonal(&system.matrix.velocity[std::size_t(graph_.diagonal[i])*D*D]);
         const Block<D> whole = diagonal + ghost[i]*Block<D>::Identity();
         inverse(i) = whole.inverse().template cast<float>();
-    }
-    for (const NodeConstraint& c : system.constraints)
-    {
-        const Block<D> isFree = freeDirections<D>(c), before = inverse(c.node).template cast<double>();
-        inverse(c.node) = (isFree*before*isFree).template cast<float>();
     }
 }
 

@@ -13,7 +13,7 @@ class VelocityBlock
 public:
     VelocityBlock(const NodeGraph& graph, int nOwned, int dim) : graph_(graph), nOwned_(nOwned), dim_(dim), inverse_(std::size_t(nOwned)*dim*dim) {}
 
-    /// ghost: what the ghost faces add to the diagonal of each node. Prescribed directions are left out: the inverse gives 0 there.
+    /// ghost: what the ghost faces add to the diagonal of each node.
     void set(const FlowSystem& system, const std::vector<double>& ghost);
 
     /// z (dim+1 values a node, velocity first; the pressures become 0) = approximate inverse times the momentum rows of r, which were
