@@ -62,7 +62,6 @@ public:
     const std::vector<int>& contactCounts() const { return contactCounts_; }
     const std::vector<int>& wallContactCounts() const { return wallContactCounts_; } ///< bodies that touch each wall
     bool isHeld(int body) const { return isHeld_[body]; }
-    double inertiaFactor(int body) const { return factors_[body]; } ///< s above, a power of two
 
     int repeats() const { return repeats_; }            ///< further solves needed in this step
     double mismatch() const { return mismatch_; }       ///< of the accepted contact, as CouplingControls::tolerance
