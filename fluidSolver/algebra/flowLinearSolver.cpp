@@ -14,7 +14,7 @@ namespace flotsam
 namespace
 {
 
-constexpr double startReduction = 0.1; // of the residual by the first solve of a step
+constexpr double startReduction = 0.1; // of the residual by a solve
 constexpr double negligible = 1e-3; // of the tolerance: a residual that needs no solve
 
 /// Arrays of two vectors for the time of a product.
@@ -76,7 +76,6 @@ struct FlowLinearSolver::Implementation
     KSP krylov = nullptr;
     Vec rhs = nullptr, solution = nullptr;
     int nVector = -1;
-    bool isFirstSolve = true;           // of the system
     bool isNewMatrix = true;            // of the system: FlowSystem::isNewMatrix
 
     Implementation(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& h, const NumericsControls& c)
@@ -128,6 +127,24 @@ struct FlowLinearSolver::Implementation
         check(VecNorm(rhs, NORM_2, &first));
     }
 
+    /// The residual to stop at, given that of the start (in rhs, norm `first`) and the norm of the right-hand side.
+    double target(const std::vector<double>& x, double first, double norm)
+    {
+        double wanted = controls.tolerance*norm;
+        const double smallest = negligible*wanted;
+        // The right-hand side is mostly inertia over the time step, 150 times the forces in a vortex street: whoever looks at a solid wants these
+        if (system.hasSolids())
+        {
+            const PetscScalar* r;
+            check(VecGetArrayRead(rhs, &r));
+            wanted = std::min(wanted, controls.forceTolerance*system.forceNorm(x, r));
+            check(VecRestoreArrayRead(rhs, &r));
+        }
+        // An extrapolated start may meet the tolerance by itself (the gas hardly counts in the norm), and taken as the solution step after step it
+        // grows: a gas jet of 12 m/s over a flume, without an iteration.
+        return std::max(std::min(wanted, startReduction*first), smallest);
+    }
+
     /// GMRES on the residual in rhs, down to `target`; adds what it finds to x and q. norm: of the right-hand side.
     SolveReport iterate(std::vector<double>& x, std::vector<double>& q, double target, double norm, int maxIterations)
     {
@@ -166,7 +183,6 @@ void FlowLinearSolver::forgetPreconditioner()
 void FlowLinearSolver::setSystem(const FlowSystem& system)
 {
     NoFloatingPointTraps guard;
-    impl_->isFirstSolve = true;
     impl_->isNewMatrix = system.isNewMatrix;
     impl_->system.set(system);
     impl_->createKrylov();
@@ -182,12 +198,7 @@ SolveReport FlowLinearSolver::solve(std::vector<double>& x, std::vector<double>&
     me.setResidual(x, q, first, norm);
     if (!(norm < 1e300) || !(first < 1e300)) return report; // not a number: the caller repeats the step
     report.initial = report.final = norm > 0 ? first/norm : 0;
-    // The first solve of a step also makes the residual of its start ten times smaller. An extrapolated start may meet the tolerance by itself (the gas
-    // hardly counts in the norm), and taken as the solution step after step it grows: a gas jet of 12 m/s over a flume, without an iteration.
-    const double wanted = me.controls.tolerance*norm;
-    const double target = me.isFirstSolve ? std::max(std::min(wanted, startReduction*first), negligible*wanted) : wanted;
-    const bool isFirst = me.isFirstSolve;
-    me.isFirstSolve = false;
+    const double target = me.target(x, first, norm);
     if (first <= target || first == 0)
     {
         report.hasConverged = true;
@@ -208,7 +219,7 @@ SolveReport FlowLinearSolver::solve(std::vector<double>& x, std::vector<double>&
         report.initial = initial;
     }
     // a solve that only follows a new contact impulse starts near its end: it says nothing about the hierarchy's age
-    else if (isFirst && me.isNewMatrix) me.system.pressure().countIterations(report.iterations);
+    else if (me.isNewMatrix) me.system.pressure().countIterations(report.iterations);
     report.rebuiltPreconditioner = me.isNewMatrix && me.system.pressure().isNew();
     return report;
 }

@@ -217,6 +217,33 @@ double ScaledFlowSystem::residual(const std::vector<double>& x, const std::vecto
     return std::sqrt(halo_.sum(square));
 }
 
+double ScaledFlowSystem::forceNorm(const std::vector<double>& x, const double* r)
+{
+    const FlowOperator op = product();
+    const int D = B_ - 1;
+    for (int i = 0; i < mesh_.nNodes; ++i) pressureLocal_[i] = x[std::size_t(i)*B_ + D];
+    op.gradient(pressureLocal_.data(), gradient_.data());
+    double* force = local_.data(); // free here
+    for (int i = 0; i < mesh_.nOwned; ++i)
+    {
+        for (int d = 0; d < D; ++d) force[std::size_t(i)*B_ + d] = gradient_[std::size_t(i)*D + d];
+        force[std::size_t(i)*B_ + D] = 0;
+    }
+    op.project(force);
+    double square = 0;
+    for (int i = 0; i < mesh_.nOwned; ++i)
+        for (std::size_t k = std::size_t(i)*B_; k < std::size_t(i)*B_ + D; ++k) square += std::pow(r[k] + scale_[k]*force[k], 2);
+    if (!solids_.isEmpty())
+    {
+        op.solidRowsOfPressure(pressureLocal_.data(), qRows_.data());
+        std::vector<double> rows(solids_.nLocalEntries());
+        solids_.writeRows(qRows_, rows.data());
+        const double* own = r + std::size_t(mesh_.nOwned)*B_;
+        for (std::size_t k = 0; k < rows.size(); ++k) square += std::pow(own[k] + rows[k], 2);
+    }
+    return std::sqrt(halo_.sum(square));
+}
+
 void ScaledFlowSystem::addTo(std::vector<double>& x, std::vector<double>& q, const double* solution)
 {
     const std::size_t n = std::size_t(mesh_.nOwned)*B_;

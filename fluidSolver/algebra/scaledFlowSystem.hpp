@@ -19,6 +19,7 @@ public:
     /// Collective. Diagonal blocks of the system (kept by reference) and, when it pays, a new pressure hierarchy.
     void set(const FlowSystem& system);
 
+    bool hasSolids() const { return !system_->solids.empty(); }
     int nEntries() const { return mesh_.nOwned*B_ + solids_.nLocalEntries(); }
     void multiply(const double* x, double* y);
     void precondition(const double* r, double* z);
@@ -27,6 +28,8 @@ public:
 
     /// Scaled residual r of (x: nNodes*(dim+1) with its halo up to date, q: nDof per solid); returns the norm of the scaled right-hand side.
     double residual(const std::vector<double>& x, const std::vector<double>& q, double* r);
+    /// Norm of the scaled forces that change the motion of x: its residual r and the pressure's rows. The right-hand side is mostly inertia over the time step.
+    double forceNorm(const std::vector<double>& x, const double* r);
     /// Adds a scaled solution to x and q; the halo of x is updated.
     void addTo(std::vector<double>& x, std::vector<double>& q, const double* solution);
 

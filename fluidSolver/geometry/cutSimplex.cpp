@@ -160,21 +160,49 @@ SimplexCut<dim> cutSimplex(const double* distance, double volume, const double* 
     return cut;
 }
 
-/// In the unit simplex: shares and slopes are the same in all.
+namespace
+{
+
+/// Share of the edge from a to b that lies on a's side of the zero, and its derivative to a distance added to both.
+FluidFraction shareOfEdge(double a, double b)
+{
+    return {a / (a - b), 1 / (a - b)};
+}
+
+FluidFraction operator*(FluidFraction a, FluidFraction b)
+{
+    return {a.value * b.value, a.slope * b.value + a.value * b.slope};
+}
+
+FluidFraction operator+(FluidFraction a, FluidFraction b)
+{
+    return {a.value + b.value, a.slope + b.slope};
+}
+
+FluidFraction rest(FluidFraction a)
+{
+    return {1 - a.value, -a.slope};
+}
+
+} // namespace
+
+/// Parts are simplices whose shares are products of shares of edges: a corner, its complement, or (tetrahedron, two and two nodes) three of them.
 template <int dim>
 FluidFraction fluidFraction(const double* distance)
 {
-    double vertices[(dim + 1) * dim] = {}, gradN[(dim + 1) * dim] = {}, square = 0, area = 0;
-    for (int d = 0; d < dim; ++d)
+    double wet[dim + 1] = {}, dry[dim + 1] = {};
+    int nWet = 0, nDry = 0;
+    for (int a = 0; a <= dim; ++a) (distance[a] > 0 ? wet[nWet++] : dry[nDry++]) = distance[a];
+    if (dim == 3 && nWet == 2)
     {
-        vertices[(d + 1) * dim + d] = gradN[(d + 1) * dim + d] = 1;
-        gradN[d] = -1;
-        square += (distance[d + 1] - distance[0]) * (distance[d + 1] - distance[0]);
+        const FluidFraction t00 = shareOfEdge(wet[0], dry[0]), t01 = shareOfEdge(wet[0], dry[1]);
+        const FluidFraction t10 = shareOfEdge(wet[1], dry[0]), t11 = shareOfEdge(wet[1], dry[1]);
+        return t00 * t01 + rest(t00) * t10 * t11 + t00 * rest(t01) * t11;
     }
-    const double volume = dim == 2 ? 1.0 / 2 : 1.0 / 6;
-    const SimplexCut<dim> cut = cutSimplex<dim>(distance, volume, vertices, gradN);
-    for (int f = 0; f < cut.nFacets; ++f) area += cut.facets[f].area;
-    return {cut.volume / volume, area / (volume * std::sqrt(square))};
+    const bool isCorner = nWet == 1; // of fluid; else of solid
+    FluidFraction corner{1, 0};
+    for (int k = 0; k < dim; ++k) corner = corner * (isCorner ? shareOfEdge(wet[0], dry[k]) : shareOfEdge(dry[0], wet[k]));
+    return isCorner ? corner : rest(corner);
 }
 
 template <int dim>
