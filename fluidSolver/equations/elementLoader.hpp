@@ -84,11 +84,13 @@ struct ElementSource
     DualCellTransport::ElementFluxes fluxes{};              ///< null where the density does not vary
     double rhoOld = 0, rhoOlder = 0;                        ///< means over the fluid part at t^n, t^(n-1) [kg/m^3]
     TimeScheme time;                                        ///< first order where the density is steep
+    double elementTime = 0;                                 ///< see elementTime() [s]
 };
 
 /// Fluid part, materials, what convects, tau, history and force: all that the momentum residual needs. False for an element without a fluid part.
 template<int D>
-inline bool loadResidualData(int e, const SimplexMesh& mesh, const FlowStepData& step, const NodalData& nodal, ElementData<D>& data, ElementSource& source)
+inline bool loadResidualData(int e, const SimplexMesh& mesh, const FlowStepData& step, const NumericsControls& controls, const NodalData& nodal,
+    ElementData<D>& data, ElementSource& source)
 {
     constexpr int N = D + 1;
     source = {};
@@ -137,7 +139,8 @@ inline bool loadResidualData(int e, const SimplexMesh& mesh, const FlowStepData&
         }
     double speed = 0;
     for (int d = 0; d < D; ++d) speed += data.advection[d]*data.advection[d];
-    data.tau = tauMomentum(step.time.dt, std::sqrt(speed), h, nu);
+    source.elementTime = elementTime(step.time.dt, std::sqrt(speed), h, nu);
+    data.tau = controls.tauFactor*source.elementTime;
     for (int d = 0; d < D; ++d)
         data.force[d] = step.elementForce ? (*step.elementForce)[std::size_t(e)*D + d] : 0;
     data.prepare();
@@ -185,14 +188,14 @@ inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& 
     const NumericsControls& controls, const NodalData& nodal, ElementData<D>& data)
 {
     ElementSource source;
-    if (!loadResidualData<D>(e, mesh, step, nodal, data, source)) return false;
+    if (!loadResidualData<D>(e, mesh, step, controls, nodal, data, source)) return false;
     loadSecondMoments<D>(source.cut, data);
     loadInertia<D>(&mesh.elements[std::size_t(e)*(D + 1)], step, nodal, source, data);
     if (data.isVarying) loadConvection<D>(source.fluxes, fluid, controls, data);
     double square = 0;
     for (int d = 0; d < D; ++d) square += data.advection[d]*data.advection[d];
     data.tauCont = controls.tauContFactor
-        *tauContinuity(controls.tauContWithTimeStep, data.rho, std::sqrt(square), mesh.h[e], data.mu/data.rho, data.tau);
+        *tauContinuity(controls.tauContWithTimeStep, data.rho, std::sqrt(square), mesh.h[e], data.mu/data.rho, source.elementTime);
     return true;
 }
 

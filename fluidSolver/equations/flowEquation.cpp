@@ -146,7 +146,7 @@ void FlowEquation::fineScaleT(const std::vector<double>& x, std::vector<double>&
     for (int e = 0; e < mesh_.nElements; ++e)
     {
         double* r = &result[std::size_t(e)*D];
-        if (!loadResidualData<D>(e, mesh_, step_, nodal_, data, source))
+        if (!loadResidualData<D>(e, mesh_, step_, controls_, nodal_, data, source))
         {
             std::fill(r, r + D, 0.0);
             continue;

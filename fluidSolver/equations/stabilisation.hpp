@@ -7,9 +7,9 @@
 namespace flotsam
 {
 
-/// tau of SUPG and PSPG [s]: multiplies the momentum residual divided by rho.
-/// The time step belongs into it: without it the two-phase scheme blows up within 30 steps (docs/numerics.md).
-inline double tauMomentum(double dt, double speed, double h, double nu)
+/// Time T in which an element passes on what happens in it [s]; tauFactor times T is the tau of SUPG and PSPG, which multiplies the momentum residual
+/// divided by rho. The time step belongs into it: without it the two-phase scheme blows up within 30 steps (docs/numerics.md).
+inline double elementTime(double dt, double speed, double h, double nu)
 {
     const double transient = 2/dt, convective = 2*speed/h, viscous = 12*nu/(h*h);
     return 1/std::sqrt(transient*transient + convective*convective + viscous*viscous);
@@ -24,10 +24,10 @@ inline double convectingShare(double dt, double speed, double h, double nu)
     return inertial/(inertial + viscous*viscous);
 }
 
-/// tau_cont [Pa s] of the grad-div term: rho h^2/(12 tau) (with the time step) or rho (nu + |a| h/2) (without).
-inline double tauContinuity(bool withTimeStep, double rho, double speed, double h, double nu, double tau)
+/// tau_cont [Pa s] of the grad-div term: rho h^2/(12 T) (with the time step) or rho (nu + |a| h/2) (without).
+inline double tauContinuity(bool withTimeStep, double rho, double speed, double h, double nu, double time)
 {
-    return withTimeStep ? rho*h*h/(12*tau) : rho*(nu + 0.5*speed*h);
+    return withTimeStep ? rho*h*h/(12*time) : rho*(nu + 0.5*speed*h);
 }
 
 } // namespace flotsam
