@@ -107,6 +107,7 @@ void Fluid::setGhostFluxes(const std::vector<double>& triples)
 
 void Fluid::keepGeometry()
 {
+    if (!fluid_.isTwoPhase) return;
     if (!std::isfinite(keptLiquid())) setKeptLiquid(liquidVolume()/mesh_.thickness);
     start_ = *cover_;
     isMoved_ = true;

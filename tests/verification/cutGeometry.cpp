@@ -148,7 +148,7 @@ TEST_CASE("the offset makes the cut volume the exact one")
     }
 }
 
-// One Newton step for the offset, from that of the last place, leaves it at 0.1 to 1.5 of its volume.
+// One Newton step a place, from the offset of the last, misses up to 0.22 of the volume.
 TEST_CASE("a body whose parts are one element thick takes its volume with it")
 {
     const Scene scene(2, 20); // elements of 0.1
@@ -166,7 +166,7 @@ TEST_CASE("a body whose parts are one element thick takes its volume with it")
         worst = std::max(worst, std::abs(builder.buildExactVolume(solids).solidVolume[0] / exact - 1));
     }
     MESSAGE("largest deviation from the volume " << worst);
-    CHECK(worst < 0.02);
+    CHECK(worst < 0.02);    // measured 0.014
 }
 
 TEST_CASE("a neighbour does not change a body's offset, a body through the wall keeps its own")
