@@ -13,7 +13,7 @@ BOUNDS = {
     "gas": (10, "largest speed in the gas over the same"),
     "energy": (0.05, "largest rise of the mechanical energy above an earlier value, over the energy there is; scenes without forcing"),
     "alpha": (1e-4, "largest excess of the phase field over 0 and 1"),
-    "volume": (None, "liquid made or lost, over the liquid there is (1e-6; 0.01 where solids move)"),
+    "volume": (1e-6, "liquid made or lost, over the liquid there is"),
     "bodies": (2, "largest speed of a body over that which energy allows"),
     "outside": (0, "bodies whose centre went through a wall"),
     "overlap": (0.1, "deepest overlap of contact surfaces over the thinnest body"),
@@ -58,8 +58,6 @@ def figures(s, mesh, root, folder):
     """{figure: value} of a finished run, `failed`: names of those beyond their bounds."""
     found = {**_fields(s, mesh, root, folder), **_history(s, root, folder), **_log(s, folder)}
     limits = {name: limit for name, (limit, _) in BOUNDS.items()}
-    moves = s.bodies or any(hasattr(x, "motion") for x in s.structures)
-    limits["volume"] = 0.01 if moves else 1e-6
     found["failed"] = [name for name, limit in limits.items() if name in found and not found[name] <= limit]     # nan fails
     return found
 

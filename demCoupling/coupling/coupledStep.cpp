@@ -62,6 +62,9 @@ StepResult CoupledStep::step(double dt)
         PhaseTimer t(timers_, Phase::Dem);
         coupling_->begin(time, dt);
     }
+    if (scene_.moves()) fluid_.keepGeometry();
+    scene_.place(time + dt, coupling_.get());
+    if (scene_.moves()) cut(false);
     try
     {
         PhaseTimer t(timers_, Phase::PhaseField);
@@ -70,8 +73,6 @@ StepResult CoupledStep::step(double dt)
     catch (const std::runtime_error& error) { result.failure = error.what(); } // on every rank alike
     if (result.failure.empty())
     {
-        scene_.place(time + dt, coupling_.get());
-        if (scene_.moves()) cut(true);
         {
             PhaseTimer t(timers_, Phase::FlowAssembly);
             fluid_.assemble();

@@ -274,10 +274,10 @@ DualCellTransport::ElementFluxes DualCellTransport::fluxes(int e) const
 
 TransportReport DualCellTransport::advance(std::vector<double>& alpha, double dt, const std::vector<double>& u,
     const std::vector<double>& fineScale, const Cover* cover, const std::vector<BoundaryPatch>& patches,
-    const std::vector<PatchValues>& values, const std::vector<char>& isPressureFixed, const std::vector<PairFlux>& pairFlux)
+    const std::vector<PatchValues>& values, const std::vector<char>& isPressureFixed, const std::vector<PairFlux>& pairFlux, const Cover* atEnd)
 {
     TransportReport report;
-    useCover(cover);
+    useCover(atEnd ? atEnd : cover);
     const double measured = halo_.sum(liquidOf(mesh_, dualVolume_, alpha));
     report.liquidBefore = cover && std::isfinite(liquidVolume_) ? liquidVolume_ : measured;
 

@@ -32,7 +32,7 @@ public:
     /// u: nNodes*dim velocity at t+dt/2; fineScale: nElements*dim u' at t+dt/2 (may be empty: zero).
     /// The volume flux between nodes a and b of element e comes from r_a = -grad N_a . int_{fluid part}(u + u'),
     /// so that the sum over a dual cell is the continuity row of the flow solver (plus `pairFlux`).
-    /// cover: geometry during the step (null: no solids). patches: where fluid enters and with what alpha;
+    /// cover: geometry during the step (null: no solids), atEnd: at its end (null: the same). patches: where fluid enters and with what alpha;
     /// values[p] belongs to patches[p]. velocity at Fixed/Slip patches decides the boundary flux int N_i u.n;
     /// at nodes with fixed pressure the boundary flux closes the node's balance.
     /// pairFlux: further volume fluxes between nodes (ghost penalty); every rank lists all that touch its owned nodes.
@@ -40,7 +40,7 @@ public:
     TransportReport advance(std::vector<double>& alpha, double dt, const std::vector<double>& u,
         const std::vector<double>& fineScale, const Cover* cover,
         const std::vector<BoundaryPatch>& patches, const std::vector<PatchValues>& values,
-        const std::vector<char>& isPressureFixed, const std::vector<PairFlux>& pairFlux = {});
+        const std::vector<char>& isPressureFixed, const std::vector<PairFlux>& pairFlux = {}, const Cover* atEnd = nullptr);
 
     /// Volume fluxes of the last advance(), means over its step, of an element in which alpha varied: pairs of corners in the
     /// order of CornerPairs, first to second [m^dim/s]. Null pointers elsewhere. What the momentum must be carried with.
@@ -50,7 +50,7 @@ public:
     /// Interface width delta of a node [m]: controls.interfaceWidth times the mean element length around it.
     const std::vector<double>& width() const { return width_; }
 
-    /// Fluid volume of the dual cell of every local node [m^dim] (complete for owned and first-ring nodes), for the cover
+    /// Fluid volume of the dual cell of every local node [m^dim] (complete for owned and first-ring nodes), at the end
     /// of the last advance() (before it: no solids).
     const std::vector<double>& dualVolume() const { return dualVolume_; }
 

@@ -5,6 +5,7 @@
 #include "equations/materials.hpp"
 #include "equations/solidExtension.hpp"
 #include "equations/initialProfile.hpp"
+#include "geometry/meanCover.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -76,10 +77,12 @@ TransportReport Fluid::advancePhase(double dt)
     const std::vector<double>& u = halfStep(state_.u, state_.uOld, dt, workU_);
     const std::vector<char>& isFixed = equation_.isPatchPressureFixed();
     // without u': beside the surface it is an error of first order in time that damps waves (docs/numerics.md, section 4)
-    if (!supg_) return transport_.advance(state_.alpha, dt, u, {}, cover_, patches_, values_, isFixed, ghostFlux_);
+    if (isMoved_) setMeanCover(mesh_, start_, *cover_, during_);
+    const Cover* during = isMoved_ ? &during_ : cover_;
+    if (!supg_) return transport_.advance(state_.alpha, dt, u, {}, during, patches_, values_, isFixed, ghostFlux_, cover_);
     const std::vector<double>& fine = halfStep(state_.fineScale, state_.fineScaleOld, dt, workFine_);
     supg_->setHistory(state_.alphaOlder, state_.dt);
-    return supg_->advance(state_.alpha, dt, u, fine, cover_, patches_, values_, isFixed, ghostFlux_);
+    return supg_->advance(state_.alpha, dt, u, fine, during, patches_, values_, isFixed, ghostFlux_, cover_);
 }
 
 void Fluid::setKeptLiquid(double volume)
@@ -102,6 +105,14 @@ void Fluid::setGhostFluxes(const std::vector<double>& triples)
         ghostFlux_.push_back({int(triples[k]), int(triples[k + 1]), triples[k + 2]});
 }
 
+void Fluid::keepGeometry()
+{
+    if (!fluid_.isTwoPhase) return;
+    if (!std::isfinite(keptLiquid())) setKeptLiquid(liquidVolume()/mesh_.thickness);
+    start_ = *cover_;
+    isMoved_ = true;
+}
+
 TransportReport Fluid::beginStep(double dt)
 {
     before_.alpha = state_.alpha;
@@ -116,7 +127,9 @@ TransportReport Fluid::beginStep(double dt)
         state_.alphaOlder = state_.alphaOld;
         state_.alphaOld = state_.alpha;
         report = advancePhase(dt);
+        if (isMoved_) extendPhase();
     }
+    isMoved_ = false;
     evaluatePatches(state_.time + dt);
     return report;
 }
@@ -284,6 +297,7 @@ void Fluid::rejectStep()
     state_.alphaOld = before_.alphaOld;
     state_.alphaOlder = before_.alphaOlder;
     setKeptLiquid(liquidBefore_);
+    isMoved_ = false;
     solver_.forgetPreconditioner(); // what failed may have been its
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The fluid: state, phase field, momentum and continuity of one step, behind a few verbs for the main loop.
 ///
-///   beginStep(dt)  phase field to t+dt on the geometry of t, boundary values
+///   keepGeometry() when solids move: before the geometry of t+dt is set
+///   beginStep(dt)  phase field to t+dt, boundary values
 ///   assemble()     linear system on the geometry of t+dt
 ///   solve()        velocities, pressure, free solids' velocities (repeatable with other contact loads)
 ///   endStep()      accept; or rejectStep(): back to t
@@ -30,9 +31,11 @@ public:
     void start(FlowState state, bool isSharp);
 
     /// Geometry of the current state; pass it again after every re-cutting. Null: no solids.
-    /// Newly wet nodes take the phase field of their surroundings.
+    /// hasChanged: the phase field inside solids follows that of the surroundings anew.
     void setGeometry(const Cover* cover, const std::vector<Solid>* solids, bool hasChanged);
 
+    /// The next step goes from the present geometry to the one that is set until beginStep().
+    void keepGeometry();
     TransportReport beginStep(double dt);
     void assemble();
     SolveReport solve(const std::vector<FreeBody>& bodies);
@@ -101,6 +104,8 @@ private:
     std::unique_ptr<PhaseFieldSupg> supg_;  // the paper's form, when selected
     InterfacePlanes planes_;
     const Cover* cover_ = nullptr;
+    Cover start_, during_;              // while solids move: geometry of t, mean over the step
+    bool isMoved_ = false;              // start_ holds
     std::unique_ptr<GasRegion> gas_;    // when gas far from the water is left out
     const std::vector<Solid>* solids_ = nullptr;
     TimeScheme time_;

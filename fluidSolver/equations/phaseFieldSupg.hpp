@@ -27,7 +27,7 @@ public:
     TransportReport advance(std::vector<double>& alpha, double dt, const std::vector<double>& u,
         const std::vector<double>& fineScale, const Cover* cover, const std::vector<BoundaryPatch>& patches,
         const std::vector<PatchValues>& values, const std::vector<char>& isPressureFixed,
-        const std::vector<PairFlux>& pairFlux = {});
+        const std::vector<PairFlux>& pairFlux = {}, const Cover* atEnd = nullptr);
 
     const std::vector<double>& width() const { return width_; }
     const std::vector<double>& dualVolume() const { return dualVolume_; }

@@ -27,8 +27,8 @@ public:
     /// `negligiblePart` are dropped. The result is valid until the next call; copy it to keep it. Collective.
     const Cover& build(const std::vector<Solid>& solids);
 
-    /// Before cutting, moves the surface of every free solid by one Newton step, starting from its current Solid::offset and offsetSlope,
-    /// so that the volume it cuts out alone (without neighbours) becomes exactVolume() and its centre the shape's. At most largestOffset.
+    /// Before cutting, moves the surface of every free solid by Newton steps (one, unless it misses much), starting from its current Solid::offset
+    /// and offsetSlope, so that the volume it cuts out alone (without neighbours) becomes exactVolume() and its centre the shape's. At most largestOffset.
     /// A free solid that reaches through the boundary of the mesh, or is not in it, keeps its offsets. Fixed slip solids are moved once,
     /// to cut out the volume of their part inside the mesh. Collective.
     const Cover& buildExactVolume(std::vector<Solid>& solids);
@@ -50,6 +50,9 @@ private:
         Eigen::Matrix4d surface = Eigen::Matrix4d::Zero();
         double areaTimesH = 0, reachesThrough = 0;
     };
+
+    /// Newton steps for the offsets of one solid: volume that the last one missed and expected to gain [m^dim], offset that it began with.
+    struct OffsetSearch { std::size_t solid; double missing, expected, offset; };
 
     struct KnownVolume
     {
@@ -74,7 +77,7 @@ private:
     const KnownVolume& known(const Solid& solid);
     OwnCut cutAlone(const Solid& solid, const std::vector<Sample>& samples);
     template <int dim> void addAlone(OwnCut& own, const Solid& solid, int element) const;
-    void moveSurface(Solid& solid, const OwnCut& own);
+    bool moveSurface(OffsetSearch& search, Solid& solid, const OwnCut& own);
     const Cover& cutMovingSolids(const std::vector<Solid>& solids);
 
     void applySamples(Cover& cover, const std::vector<Solid>& solids, int solid, const std::vector<Sample>& samples);

@@ -14,6 +14,9 @@ namespace
 {
 
 constexpr double touchTolerance = 0.02; // a body lying on a wall may overlap it by this, over the element length
+constexpr int maxNewtonSteps = 6;
+constexpr double largestGain = 4;       // of volume, over what a step expects
+constexpr double nearVolume = 0.01;     // missing over the volume: the step from here is the last
 
 struct Section { double area; bool isMean; };
 
@@ -128,44 +131,64 @@ CoverBuilder::OwnCut CoverBuilder::cutAlone(const Solid& solid, const std::vecto
     return own;
 }
 
-/// One Newton step: a displacement c of the surface outwards changes the integrals of (1, r) by those of c (1, r) over the surface.
-void CoverBuilder::moveSurface(Solid& solid, const OwnCut& own)
+/// One Newton step: a displacement c of the surface outwards changes the integrals of (1, r) by those of c (1, r) over the surface. Between
+/// nodes on both sides of a thin part the volume changes faster than that: the second step and later ones are scaled by what the last one gained.
+/// Whether another one is worth while.
+bool CoverBuilder::moveSurface(OffsetSearch& search, Solid& solid, const OwnCut& own)
 {
     const double area = own.surface(0, 0);
-    if (!(area > 0) || own.reachesThrough > 0) return;
+    if (!(area > 0) && search.expected < 0) // lost between the nodes by the last step
+    {
+        solid.offset = 0.5 * (solid.offset + search.offset);
+        search.expected *= 0.5;
+        return true;
+    }
+    if (!(area > 0) || own.reachesThrough > 0) return false;
     const KnownVolume& exact = known(solid);
     const Vec3 centroid = solid.pose.orientation * exact.centroid;
     Eigen::Vector4d missing = -own.volume;
     missing[0] += exact.volume;
     for (int d = 0; d < mesh_.dim; ++d) missing[1 + d] += exact.volume * centroid[mesh_.axes[d]];
     const int n = exact.hasCentroid ? 1 + mesh_.dim : 1;
-    const Eigen::VectorXd change = own.surface.topLeftCorner(n, n).ldlt().solve(missing.head(n));
+    const double gained = search.expected != 0 ? (search.missing - missing[0]) / search.expected : 1;
+    const Eigen::VectorXd change = own.surface.topLeftCorner(n, n).ldlt().solve(missing.head(n)) / std::clamp(gained, 1.0, largestGain);
     const double limit = largestOffset * own.areaTimesH / area;
-    solid.offset = std::clamp(solid.offset + change[0], -limit, limit);
+    const double offset = std::clamp(solid.offset + change[0], -limit, limit);
+    search.missing = missing[0];
+    search.offset = solid.offset;
+    search.expected = own.surface(0, 0) * (offset - solid.offset);
+    for (int d = 0; d + 1 < n; ++d) search.expected += own.surface(0, 1 + d) * change[1 + d];
+    solid.offset = offset;
     for (int d = 0; d + 1 < n; ++d) solid.offsetSlope[mesh_.axes[d]] += change[1 + d];
     solid.offsetSlope *= std::min(1.0, limit / std::max(solid.offsetSlope.norm() * solid.radius(), 1e-300));
+    return std::abs(missing[0]) > nearVolume * exact.volume;
 }
 
 void CoverBuilder::correctOffsets(std::vector<Solid>& solids)
 {
     constexpr int width = 22;
-    std::vector<double> sums;
+    std::vector<OffsetSearch> searches;
     for (std::size_t s = 0; s < solids.size(); ++s)
+        if (solids[s].kind == Solid::Kind::Free && needsOffsets(solids[s])) searches.push_back({s, 0, 0, 0});
+    for (int step = 0; step < maxNewtonSteps && !searches.empty(); ++step)
     {
-        if (solids[s].kind != Solid::Kind::Free || !needsOffsets(solids[s])) continue;
-        const OwnCut own = cutAlone(solids[s], samples_[s]);
-        sums.insert(sums.end(), own.volume.data(), own.volume.data() + 4);
-        sums.insert(sums.end(), own.surface.data(), own.surface.data() + 16);
-        sums.insert(sums.end(), {own.areaTimesH, own.reachesThrough});
-    }
-    if (sums.empty()) return;
-    halo_.sum(sums.data(), static_cast<int>(sums.size()));
-    const double* at = sums.data();
-    for (Solid& solid : solids)
-    {
-        if (solid.kind != Solid::Kind::Free || !needsOffsets(solid)) continue;
-        moveSurface(solid, {Eigen::Vector4d(at), Eigen::Matrix4d(at + 4), at[20], at[21]});
-        at += width;
+        std::vector<double> sums;
+        for (const OffsetSearch& search : searches)
+        {
+            const OwnCut own = cutAlone(solids[search.solid], samples_[search.solid]);
+            sums.insert(sums.end(), own.volume.data(), own.volume.data() + 4);
+            sums.insert(sums.end(), own.surface.data(), own.surface.data() + 16);
+            sums.insert(sums.end(), {own.areaTimesH, own.reachesThrough});
+        }
+        halo_.sum(sums.data(), static_cast<int>(sums.size()));
+        std::vector<OffsetSearch> next;
+        const double* at = sums.data();
+        for (OffsetSearch& search : searches)
+        {
+            if (moveSurface(search, solids[search.solid], {Eigen::Vector4d(at), Eigen::Matrix4d(at + 4), at[20], at[21]})) next.push_back(search);
+            at += width;
+        }
+        searches.swap(next);
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "equations/initialProfile.hpp"
 #include "equations/solidExtension.hpp"
+#include "geometry/meanCover.hpp"
 #include "support/transportScene.hpp"
 
 #include <doctest/doctest.h>
@@ -53,12 +54,17 @@ TEST_CASE("a cylinder that drifts with the fluid, half out of the liquid, distur
         const std::vector<double> start = scene.alpha;
         double x = 0.35, inflow = 0, outflow = 0, first = 0, last = 0, moved = 0;
         int mostSubSteps = 0;
+        Cover before = cutMesh(scene.mesh, scene.graph, scene.halo, cylinderAt(x, 0.5, radius)), during;
         for (int step = 0; step < n; ++step)        // 0.3 of the box
         {
             x += dt*speed;
             const Cover cover = cutMesh(scene.mesh, scene.graph, scene.halo, cylinderAt(x, 0.5, radius));
-            const TransportReport r = scene.transport.advance(scene.alpha, dt, scene.velocity, {}, &cover, scene.patches, scene.values, {});
+            setMeanCover(scene.mesh, before, cover, during);
+            if (step == 0) scene.transport.setLiquidVolume(scene.halo.sum(liquidOf(scene.mesh, dualVolumes(scene.mesh, &before), scene.alpha)));
+            const TransportReport r = scene.transport.advance(scene.alpha, dt, scene.velocity, {}, &during, scene.patches, scene.values, {}, {}, &cover);
             extendIntoSolids(scene.mesh, scene.graph, scene.halo, cover, scene.alpha);
+            before = cover;
+            CHECK(scene.halo.sum(liquidOf(scene.mesh, dualVolumes(scene.mesh, &cover), scene.alpha)) == doctest::Approx(r.liquidAfter).epsilon(1e-13));
             first = step == 0 ? r.liquidBefore : first;
             last = r.liquidAfter;
             inflow += r.inflow;

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/meanCover.hpp"
+
+namespace flotsam
+{
+
+namespace
+{
+
+void addHalf(const SimplexMesh& mesh, const Cover& cover, int e, CutElement& sum)
+{
+    const int n = mesh.dim + 1;
+    if (cover.state[e] == ElementState::Solid) return;
+    if (cover.state[e] == ElementState::Cut)
+    {
+        const CutElement& cut = cover.cuts[cover.cutIndex[e]];
+        sum.volume += 0.5*cut.volume;
+        for (int a = 0; a < n; ++a) sum.first[a] += 0.5*cut.first[a];
+        for (int k = 0; k < n*n; ++k) sum.second[k] += 0.5*cut.second[k];
+        return;
+    }
+    const double volume = 0.5*mesh.volume[e];
+    sum.volume += volume;
+    for (int a = 0; a < n; ++a)
+    {
+        sum.first[a] += volume/n;
+        for (int b = 0; b < n; ++b) sum.second[a*n + b] += volume*(a == b ? 2 : 1)/(n*(n + 1));
+    }
+}
+
+void addHalfFacets(const Cover& cover, int e, std::vector<CutFacet>& facets)
+{
+    if (cover.state[e] != ElementState::Cut) return;
+    const CutElement& cut = cover.cuts[cover.cutIndex[e]];
+    for (int f = cut.facetStart; f < cut.facetEnd; ++f)
+    {
+        CutFacet& facet = facets.emplace_back(cover.facets[f]);
+        facet.area *= 0.5;
+        for (double& weight : facet.weight) weight *= 0.5;
+    }
+}
+
+} // namespace
+
+void setMeanCover(const SimplexMesh& mesh, const Cover& start, const Cover& end, Cover& mean)
+{
+    mean.state = end.state;
+    mean.cutIndex.assign(mesh.nElements, -1);
+    mean.cuts.clear();
+    mean.facets.clear();
+    mean.isActiveNode = end.isActiveNode;
+    for (int i = 0; i < mesh.nNodes; ++i) mean.isActiveNode[i] = start.isActiveNode[i] || end.isActiveNode[i];
+    for (int e = 0; e < mesh.nElements; ++e)
+    {
+        if (start.state[e] == end.state[e] && end.state[e] != ElementState::Cut) continue;
+        mean.state[e] = ElementState::Cut;
+        mean.cutIndex[e] = static_cast<int>(mean.cuts.size());
+        CutElement& cut = mean.cuts.emplace_back();
+        cut.element = e;
+        addHalf(mesh, start, e, cut);
+        addHalf(mesh, end, e, cut);
+        cut.facetStart = static_cast<int>(mean.facets.size());
+        addHalfFacets(start, e, mean.facets);
+        addHalfFacets(end, e, mean.facets);
+        cut.facetEnd = static_cast<int>(mean.facets.size());
+    }
+}
+
+} // namespace flotsam

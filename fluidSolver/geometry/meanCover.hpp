@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The geometry during a step in which solids move.
+#pragma once
+
+#include "geometry/cover.hpp"
+
+namespace flotsam
+{
+
+/// Mean over the step of what is fluid: moments and facets of `start` and `end`, half each. Only states, cut elements, facets and active nodes
+/// are set. An element counts as whole only if it is at both times.
+void setMeanCover(const SimplexMesh& mesh, const Cover& start, const Cover& end, Cover& mean);
+
+} // namespace flotsam
