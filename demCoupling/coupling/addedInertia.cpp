@@ -16,38 +16,39 @@ constexpr double leastFactor = 8; // below, repeats converge by themselves, and 
 double radiusOfInertia(const BodyDefinition& body) { return std::sqrt(body.principalInertia.maxCoeff()/body.mass); }
 
 AddedInertia::AddedInertia(const std::vector<BodyDefinition>& bodies, const CouplingControls& controls)
-:   bodies_(bodies), controls_(controls), factors_(bodies.size(), 1)
+:   bodies_(bodies), controls_(controls), factors_(bodies.size())
 {}
 
-double AddedInertia::doubt(int b) const
+InertiaFactor AddedInertia::doubt(int b) const
 {
     const double expected = 1 + controls_.liquidDensity*bodies_[b].volume/bodies_[b].mass;
-    return expected < leastFactor ? 1 : std::max(1.0, expected/factors_[b]);
+    if (expected < leastFactor) return {};
+    return {std::max(1.0, expected/factors_[b].mass), std::max(1.0, expected/factors_[b].turn)};
 }
 
 /// What bodies answer to the changes of others spoils the answer, a factor too large diverges: only the largest changes count, and no more
 /// added mass than twice the liquid a body displaces.
 bool AddedInertia::raise(const std::vector<Load>& contactChange, const std::vector<Load>& fluidChange)
 {
-    const std::size_t n = bodies_.size();
-    std::vector<Eigen::Matrix<double, 6, 1>> change(n), answer(n);
     double largest = 0;
-    for (std::size_t b = 0; b < n; ++b)
-    {
-        const double arm = radiusOfInertia(bodies_[b]);
-        change[b] << contactChange[b].force, contactChange[b].moment/arm;
-        answer[b] << fluidChange[b].force, fluidChange[b].moment/arm;
-        largest = std::max(largest, change[b].norm());
-    }
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+        largest = std::max({largest, contactChange[b].force.norm(), contactChange[b].moment.norm()/radiusOfInertia(bodies_[b])});
     bool isRaised = false;
-    for (std::size_t b = 0; b < n; ++b)
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
     {
         const BodyDefinition& body = bodies_[b];
-        if (change[b].norm() < 0.5*largest || change[b].norm() <= controls_.tolerance*body.mass*controls_.gravity) continue; // or noise
-        const double r = -answer[b].dot(change[b])/change[b].squaredNorm();
-        if (r <= 0 || r >= 1) continue;
-        const double wanted = std::min(1/(1 - r), 1 + 2*controls_.liquidDensity*body.volume/body.mass);
-        while (wanted >= leastFactor && 2*factors_[b] <= wanted) { factors_[b] *= 2; isRaised = true; }
+        const double least = std::max(0.5*largest, controls_.tolerance*body.mass*controls_.gravity); // below: answers to others, noise
+        const double most = 1 + 2*controls_.liquidDensity*body.volume/body.mass;
+        auto raiseOne = [&](double& factor, const Vec3& change, const Vec3& answer, double leastChange)
+        {
+            if (change.norm() < leastChange || change.isZero(0)) return;
+            const double r = -answer.dot(change)/change.squaredNorm();
+            if (r <= 0 || r >= 1) return;
+            const double wanted = std::min(1/(1 - r), most);
+            while (wanted >= leastFactor && 2*factor <= wanted) { factor *= 2; isRaised = true; }
+        };
+        raiseOne(factors_[b].mass, contactChange[b].force, fluidChange[b].force, least);
+        raiseOne(factors_[b].turn, contactChange[b].moment, fluidChange[b].moment, least*radiusOfInertia(body));
     }
     return isRaised;
 }
@@ -57,10 +58,9 @@ std::vector<Load> AddedInertia::engineLoads(const std::vector<Load>& given, cons
     std::vector<Load> loads(given);
     for (std::size_t b = 0; b < loads.size(); ++b)
     {
-        const double s = factors_[b];
-        if (s == 1) continue; // to the last bit
-        loads[b].force = s*loads[b].force + (s - 1)*contact[b].force;
-        loads[b].moment = s*loads[b].moment + (s - 1)*contact[b].moment;
+        const InertiaFactor s = factors_[b]; // 1: to the last bit
+        if (s.mass != 1) loads[b].force = s.mass*loads[b].force + (s.mass - 1)*contact[b].force;
+        if (s.turn != 1) loads[b].moment = s.turn*loads[b].moment + (s.turn - 1)*contact[b].moment;
     }
     return loads;
 }

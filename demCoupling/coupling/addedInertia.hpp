@@ -5,7 +5,8 @@
 /// Where r approaches 1 (light bodies, water shut in between body and wall) any J is nearly a fixed point: a load that presses the body into
 /// the wall is answered by the wall. So the engine is then given the body with s times its mass and the load s (F + J) - J, which is the fluid's
 /// answer for an added mass of (s - 1) m: without a change of J the path is the solved one, with s between (m + added mass)/(2 m) and twice
-/// that the contraction is a half at most. r is seen from what the fluid answers to a change of J.
+/// that the contraction is a half at most. r is seen from what the fluid answers to a change of J, of force and moment apart: a disc takes much
+/// water along but turns in it freely, and a factor far too large diverges.
 #pragma once
 
 #include "demCoupling/core/rigidBody.hpp"
@@ -21,13 +22,13 @@ class AddedInertia
 public:
     AddedInertia(const std::vector<BodyDefinition>& bodies, const CouplingControls& controls);
 
-    const std::vector<double>& factors() const { return factors_; } ///< s of each body, a power of two
-    void setFactors(const std::vector<double>& factors) { factors_ = factors; }
-    void drop(int body) { factors_[body] = 1; }
+    const std::vector<InertiaFactor>& factors() const { return factors_; } ///< s of each body
+    void setFactors(const std::vector<InertiaFactor>& factors) { factors_ = factors; }
+    void drop(int body) { factors_[body] = InertiaFactor(); }
 
     /// Error of a body's contact load over its last change: what contracts by r a time is still off by change/(1 - r). From the liquid the body
-    /// displaces, over its factor: it must be known before there are changes. 1 for bodies that need no factor.
-    double doubt(int body) const;
+    /// displaces, over its factors: it must be known before there are changes. 1 for bodies that need no factor.
+    InertiaFactor doubt(int body) const;
 
     /// From the answer of the fluid's loads to a change of the contact loads. True when a factor was raised: G is another.
     bool raise(const std::vector<Load>& contactChange, const std::vector<Load>& fluidChange);
@@ -38,7 +39,7 @@ public:
 private:
     std::vector<BodyDefinition> bodies_;
     CouplingControls controls_;
-    std::vector<double> factors_;
+    std::vector<InertiaFactor> factors_;
 };
 
 } // namespace flotsam

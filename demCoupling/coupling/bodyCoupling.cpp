@@ -216,7 +216,7 @@ void BodyCoupling::accept()
     {
         lastLoads_[b] = isHeld_[b] ? Load() : loads_[b]; // what holds a body takes its loads
         // what the body has felt, where the contact it was solved with is not quite the one found
-        if (inertia_.factors()[b] > 1) lastLoads_[b].force = setup_.bodies[b].mass/dt_*(result_[b].motion.velocity - states_[b].motion.velocity) - newContact_[b].force;
+        if (inertia_.factors()[b].mass > 1) lastLoads_[b].force = setup_.bodies[b].mass/dt_*(result_[b].motion.velocity - states_[b].motion.velocity) - newContact_[b].force;
         if (newContact_[b].force.isZero(0) && newContact_[b].moment.isZero(0)) inertia_.drop(b);
     }
     states_ = result_;
@@ -241,23 +241,24 @@ std::vector<double> BodyCoupling::save() const
     for (const auto* loads : {&lastLoads_, &contactLoads()})
         for (const Load& l : *loads)
             for (const Vec3* v : {&l.force, &l.moment}) data.insert(data.end(), v->data(), v->data() + 3);
-    data.insert(data.end(), inertia_.factors().begin(), inertia_.factors().end());
+    for (const InertiaFactor& f : inertia_.factors()) data.insert(data.end(), {f.mass, f.turn});
     data.insert(data.end(), isHeld_.begin(), isHeld_.end());
     return data;
 }
 
 void BodyCoupling::restore(const std::vector<double>& data)
 {
-    const std::size_t tail = 14*setup_.bodies.size();
+    const std::size_t tail = 15*setup_.bodies.size();
     if (data.size() < tail) throw std::runtime_error("restart: the stored state of the bodies is too short for this case");
     const double* at = data.data() + data.size() - tail;
     std::vector<Load> contact(lastLoads_.size());
     for (auto* loads : {&lastLoads_, &contact})
         for (Load& l : *loads) { get(at, l.force); get(at, l.moment); }
     iteration_.setGuess(contact);
-    const std::size_t n = isHeld_.size();
-    inertia_.setFactors({at, at + n});
-    isHeld_.assign(at + n, at + 2*n);
+    std::vector<InertiaFactor> factors(isHeld_.size());
+    for (InertiaFactor& f : factors) { f.mass = *at++; f.turn = *at++; }
+    inertia_.setFactors(factors);
+    isHeld_.assign(at, at + isHeld_.size());
     guarded([&]
     {
         engine_->setHeld(isHeld_);

@@ -23,12 +23,16 @@ void ContactIteration::begin(double dt)
 
 bool ContactIteration::take(const std::vector<Load>& loads, const AddedInertia& inertia)
 {
-    const std::vector<double>& factors = inertia.factors();
+    const std::vector<InertiaFactor>& factors = inertia.factors();
     const Eigen::VectorXd used = scaled(guess_, factors), found = scaled(loads, factors);
     if (found.size() == 0) return true;
     double change = 0;
     for (std::size_t b = 0; b < loads.size(); ++b)
-        change = std::max(change, inertia.doubt(int(b))*(found - used).segment<6>(6*b).cwiseAbs().maxCoeff());
+    {
+        const InertiaFactor doubt = inertia.doubt(int(b));
+        change = std::max(change, doubt.mass*(found - used).segment<3>(6*b).cwiseAbs().maxCoeff());
+        change = std::max(change, doubt.turn*(found - used).segment<3>(6*b + 3).cwiseAbs().maxCoeff());
+    }
     const double scale = found.cwiseAbs().maxCoeff() + controls_.gravity*dt_, before = mismatch_;
     mismatch_ = scale > 0 ? change/scale : 0;
     if (repeats_ > 0 && mismatch_ > before) anderson_.reset(); // contacts that open or close: a plain step converges
@@ -48,26 +52,24 @@ std::vector<Load> ContactIteration::lastChange() const
 }
 
 /// Contact loads as the velocity changes they make in one step [m/s].
-Eigen::VectorXd ContactIteration::scaled(const std::vector<Load>& loads, const std::vector<double>& factors) const
+Eigen::VectorXd ContactIteration::scaled(const std::vector<Load>& loads, const std::vector<InertiaFactor>& factors) const
 {
     Eigen::VectorXd v(6*loads.size());
     for (std::size_t b = 0; b < loads.size(); ++b)
     {
-        const double mass = masses_[b]*factors[b];
-        v.segment<3>(6*b) = loads[b].force*(dt_/mass);
-        v.segment<3>(6*b + 3) = loads[b].moment*(dt_/(mass*arms_[b]));
+        v.segment<3>(6*b) = loads[b].force*(dt_/(masses_[b]*factors[b].mass));
+        v.segment<3>(6*b + 3) = loads[b].moment*(dt_/(masses_[b]*factors[b].turn*arms_[b]));
     }
     return v;
 }
 
-std::vector<Load> ContactIteration::unscaled(const Eigen::VectorXd& values, const std::vector<double>& factors) const
+std::vector<Load> ContactIteration::unscaled(const Eigen::VectorXd& values, const std::vector<InertiaFactor>& factors) const
 {
     std::vector<Load> loads(masses_.size());
     for (std::size_t b = 0; b < loads.size(); ++b)
     {
-        const double mass = masses_[b]*factors[b];
-        loads[b].force = values.segment<3>(6*b)*(mass/dt_);
-        loads[b].moment = values.segment<3>(6*b + 3)*(mass*arms_[b]/dt_);
+        loads[b].force = values.segment<3>(6*b)*(masses_[b]*factors[b].mass/dt_);
+        loads[b].moment = values.segment<3>(6*b + 3)*(masses_[b]*factors[b].turn*arms_[b]/dt_);
     }
     return loads;
 }

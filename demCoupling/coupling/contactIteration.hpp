@@ -30,8 +30,8 @@ public:
     double mismatch() const { return mismatch_; }   ///< of the last take(), as CouplingControls::tolerance
 
 private:
-    Eigen::VectorXd scaled(const std::vector<Load>& loads, const std::vector<double>& factors) const;
-    std::vector<Load> unscaled(const Eigen::VectorXd& values, const std::vector<double>& factors) const;
+    Eigen::VectorXd scaled(const std::vector<Load>& loads, const std::vector<InertiaFactor>& factors) const;
+    std::vector<Load> unscaled(const Eigen::VectorXd& values, const std::vector<InertiaFactor>& factors) const;
 
     CouplingControls controls_;
     std::vector<double> masses_, arms_;
