@@ -216,7 +216,8 @@ void BodyCoupling::accept()
     {
         lastLoads_[b] = isHeld_[b] ? Load() : loads_[b]; // what holds a body takes its loads
         // what the body has felt, where the contact it was solved with is not quite the one found
-        if (inertia_.factors()[b].mass > 1) lastLoads_[b].force = setup_.bodies[b].mass/dt_*(result_[b].motion.velocity - states_[b].motion.velocity) - newContact_[b].force;
+        if (inertia_.factors()[b].mass > 1)
+            lastLoads_[b].force = setup_.bodies[b].mass/dt_*(result_[b].motion.velocity - states_[b].motion.velocity) - newContact_[b].force;
         if (newContact_[b].force.isZero(0) && newContact_[b].moment.isZero(0)) inertia_.drop(b);
     }
     states_ = result_;
