@@ -68,6 +68,12 @@ struct Load
     Vec3 moment = Vec3::Zero();
 };
 
+/// Factors, powers of two, of a body's mass and of its moments of inertia.
+struct InertiaFactor
+{
+    double mass = 1, turn = 1;
+};
+
 /// One touching pair at the end of an advance().
 struct Contact
 {

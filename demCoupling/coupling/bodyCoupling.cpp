@@ -13,8 +13,6 @@ namespace
 constexpr int perBody = 7 + 6 + 3 + 6 + 1; // pose, motion, angular momentum, contact load, contact count
 constexpr int perWall = 6 + 1;              // contact load, contact count
 
-constexpr double leastFactor = 8;           // of the inertia in contact; below, repeats converge by themselves, and in a jam the factors of neighbours disturb each other
-
 void put(double*& at, const Vec3& v) { for (int d = 0; d < 3; ++d) *at++ = v[d]; }
 void get(const double*& at, Vec3& v) { for (int d = 0; d < 3; ++d) v[d] = *at++; }
 
@@ -41,18 +39,17 @@ void get(const double*& at, BodyState& s)
 } // namespace
 
 BodyCoupling::BodyCoupling(const DemSetup& setup, const CouplingControls& controls, MPI_Comm comm)
-:   setup_(setup), controls_(controls), comm_(comm)
+:   setup_(setup), controls_(controls), comm_(comm), iteration_(setup.bodies, controls), inertia_(setup.bodies, controls),
+    check_(setup.bodies, setup.walls)
 {
     MPI_Comm_rank(comm, &rank_);
     const std::size_t n = setup.bodies.size();
     lastLoads_.resize(n);
-    contact_.resize(n);
     newContact_.resize(n);
     wallLoads_.resize(setup.walls.size());
     contactCounts_.assign(n, 0);
     wallContactCounts_.assign(setup.walls.size(), 0);
     isHeld_.assign(n, 0);
-    factors_.assign(n, 1);
     states_.resize(n);
     result_.resize(n);
     guarded([&]
@@ -129,7 +126,7 @@ void BodyCoupling::runEngine(double duration, const std::vector<Load>& loads)
 {
     guarded([&]
     {
-        engine_->setInertiaFactors(factors_);
+        engine_->setInertiaFactors(inertia_.factors());
         engine_->setLoads(loads);
         engine_->advance(duration);
         result_ = engine_->states();
@@ -152,8 +149,12 @@ void BodyCoupling::runEngine(double duration, const std::vector<Load>& loads)
 void BodyCoupling::begin(double time, double dt)
 {
     dt_ = dt;
-    repeats_ = 0;
-    anderson_.reset();
+    iteration_.begin(dt);
+    contactBefore_ = contactLoads();
+    overlapBefore_ = largestOverlap_;
+    springSpeed_ = 0;
+    for (int b = 0; b < nBodies(); ++b)
+        springSpeed_ = std::max(springSpeed_, std::sqrt(overlapBefore_*contactBefore_[b].force.norm()/setup_.bodies[b].mass));
     std::vector<char> held(isHeld_);
     for (int b = 0; b < nBodies(); ++b) held[b] = time < setup_.bodies[b].releaseTime - 1e-9 || hasLeft(b);
     isAtStart_ = true;
@@ -171,7 +172,7 @@ BodyState BodyCoupling::drifted(int b) const
 {
     BodyState s = states_[b];
     const BodyDefinition& body = setup_.bodies[b];
-    const Vec3 acceleration = (lastLoads_[b].force + contact_[b].force)/body.mass;
+    const Vec3 acceleration = (lastLoads_[b].force + contactLoads()[b].force)/body.mass;
     s.pose.position += dt_*(s.motion.velocity + 0.5*dt_*acceleration);
     const Vec3 turn = dt_*s.motion.angularVelocity;
     if (turn.norm() > 0) s.pose.orientation = (Eigen::Quaterniond(Eigen::AngleAxisd(turn.norm(), turn.normalized()))*s.pose.orientation).normalized();
@@ -184,107 +185,29 @@ bool BodyCoupling::hasLeft(int b) const
     return ((setup_.box[0] - margin - x).array() > 0).any() || ((x - setup_.box[1] - margin).array() > 0).any();
 }
 
-std::string BodyCoupling::strayBody(double distance) const
+/// Speeds are judged where fluid and engine disagree only: what both find is a solution, whatever drives it.
+std::string BodyCoupling::brokenContact(double fluidSpeed) const
 {
-    for (int b = 0; b < nBodies(); ++b)
-    {
-        double extent = 0;
-        for (const SurfaceSphere& s : setup_.bodies[b].spheres) extent = std::max(extent, s.centre.norm() + s.radius);
-        const Pose &found = result_[b].pose, &predicted = predicted_[b].pose;
-        const double turn = std::min(2.0, found.orientation.angularDistance(predicted.orientation));
-        if (!((found.position - predicted.position).norm() + turn*extent <= distance)) return setup_.bodies[b].name;
-    }
-    return "";
-}
-
-double BodyCoupling::radiusOfInertia(int b) const
-{
-    return std::sqrt(setup_.bodies[b].principalInertia.maxCoeff()/setup_.bodies[b].mass);
-}
-
-/// Contact loads as the velocity changes they make in one step [m/s].
-Eigen::VectorXd BodyCoupling::scaled(const std::vector<Load>& loads) const
-{
-    Eigen::VectorXd v(6*loads.size());
-    for (std::size_t b = 0; b < loads.size(); ++b)
-    {
-        const double mass = setup_.bodies[b].mass*factors_[b];
-        v.segment<3>(6*b) = loads[b].force*(dt_/mass);
-        v.segment<3>(6*b + 3) = loads[b].moment*(dt_/(mass*radiusOfInertia(int(b))));
-    }
-    return v;
-}
-
-std::vector<Load> BodyCoupling::unscaled(const Eigen::VectorXd& values) const
-{
-    std::vector<Load> loads(setup_.bodies.size());
-    for (std::size_t b = 0; b < loads.size(); ++b)
-    {
-        const double mass = setup_.bodies[b].mass*factors_[b];
-        loads[b].force = values.segment<3>(6*b)*(mass/dt_);
-        loads[b].moment = values.segment<3>(6*b + 3)*(mass*radiusOfInertia(int(b))/dt_);
-    }
-    return loads;
-}
-
-/// From the answer of the fluid's loads to the last change of the contact loads. What bodies answer to the changes of others spoils that, a
-/// factor too large diverges: only the largest changes count, and no more added mass than twice the liquid a body displaces.
-void BodyCoupling::raiseFactors(const std::vector<Load>& loads)
-{
-    const std::size_t n = loads.size();
-    std::vector<Eigen::Matrix<double, 6, 1>> change(n), answer(n);
-    double largest = 0;
-    for (std::size_t b = 0; b < n; ++b)
-    {
-        const double arm = radiusOfInertia(int(b));
-        change[b] << contact_[b].force - contactBefore_[b].force, (contact_[b].moment - contactBefore_[b].moment)/arm;
-        answer[b] << loads[b].force - loads_[b].force, (loads[b].moment - loads_[b].moment)/arm;
-        largest = std::max(largest, change[b].norm());
-    }
-    bool isRaised = false;
-    for (std::size_t b = 0; b < n; ++b)
-    {
-        const BodyDefinition& body = setup_.bodies[b];
-        if (change[b].norm() < 0.5*largest || change[b].norm() <= controls_.tolerance*body.mass*controls_.gravity) continue; // or noise
-        const double r = -answer[b].dot(change[b])/change[b].squaredNorm();
-        if (r <= 0 || r >= 1) continue;
-        const double wanted = std::min(1/(1 - r), 1 + 2*controls_.liquidDensity*body.volume/body.mass);
-        while (wanted >= leastFactor && 2*factors_[b] <= wanted) { factors_[b] *= 2; isRaised = true; }
-    }
-    if (isRaised) anderson_.reset(); // G is another
-}
-
-std::vector<Load> BodyCoupling::engineLoads() const
-{
-    std::vector<Load> loads(loads_);
-    for (std::size_t b = 0; b < loads.size(); ++b)
-    {
-        const double s = factors_[b];
-        if (s == 1) continue; // to the last bit
-        loads[b].force = s*loads[b].force + (s - 1)*contact_[b].force;
-        loads[b].moment = s*loads[b].moment + (s - 1)*contact_[b].moment;
-    }
-    return loads;
+    const double slack = springSpeed_ + 10*controls_.gravity*dt_; // a bubble rises with twice gravity
+    const bool hasConverged = mismatch() <= controls_.tolerance;
+    const std::string thrown = hasConverged ? "" : check_.thrownBody(states_, result_, newContact_, fluidSpeed, slack);
+    if (!thrown.empty()) return "contact throws body '" + thrown + "' faster than anything there is";
+    return check_.passage(states_, result_);
 }
 
 bool BodyCoupling::correct(const std::vector<Load>& loads)
 {
-    if (repeats_ > 0) raiseFactors(loads);
+    if (repeats() > 0)
+    {
+        std::vector<Load> change(loads);
+        for (std::size_t b = 0; b < loads.size(); ++b) change[b] = {loads[b].force - loads_[b].force, loads[b].moment - loads_[b].moment};
+        if (inertia_.raise(iteration_.lastChange(), change)) iteration_.forget();
+    }
     loads_ = loads;
     if (!isAtStart_) guarded([&] { engine_->restore(saved_); });
     isAtStart_ = false;
-    runEngine(dt_, engineLoads());
-    const Eigen::VectorXd used = scaled(contact_), found = scaled(newContact_);
-    if (found.size() == 0) return true;
-    const double change = (found - used).cwiseAbs().maxCoeff();
-    const double scale = found.cwiseAbs().maxCoeff() + controls_.gravity*dt_, before = mismatch_;
-    mismatch_ = scale > 0 ? change/scale : 0;
-    if (repeats_ > 0 && mismatch_ > before) anderson_.reset(); // contacts that open or close: a plain step converges
-    if (mismatch_ <= controls_.tolerance || repeats_ >= controls_.maxRepeats) return true;
-    ++repeats_;
-    contactBefore_ = contact_;
-    contact_ = unscaled(anderson_.next(used, found));
-    return false;
+    runEngine(dt_, inertia_.engineLoads(loads_, contactLoads()));
+    return iteration_.take(newContact_, inertia_);
 }
 
 void BodyCoupling::accept()
@@ -293,16 +216,19 @@ void BodyCoupling::accept()
     {
         lastLoads_[b] = isHeld_[b] ? Load() : loads_[b]; // what holds a body takes its loads
         // what the body has felt, where the contact it was solved with is not quite the one found
-        if (factors_[b] > 1) lastLoads_[b].force = setup_.bodies[b].mass/dt_*(result_[b].motion.velocity - states_[b].motion.velocity) - newContact_[b].force;
-        if (newContact_[b].force.isZero(0) && newContact_[b].moment.isZero(0)) factors_[b] = 1;
+        if (inertia_.factors()[b].mass > 1)
+            lastLoads_[b].force = setup_.bodies[b].mass/dt_*(result_[b].motion.velocity - states_[b].motion.velocity) - newContact_[b].force;
+        if (newContact_[b].force.isZero(0) && newContact_[b].moment.isZero(0)) inertia_.drop(b);
     }
     states_ = result_;
-    contact_ = newContact_;
+    iteration_.setGuess(newContact_);
 }
 
 void BodyCoupling::reject()
 {
     guarded([&] { engine_->restore(saved_); });
+    iteration_.setGuess(contactBefore_); // that of the failed step would spoil the next prediction
+    largestOverlap_ = overlapBefore_;
 }
 
 std::vector<double> BodyCoupling::save() const
@@ -313,23 +239,27 @@ std::vector<double> BodyCoupling::save() const
     MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG, 0, comm_);
     data.resize(size);
     MPI_Bcast(data.data(), int(size), MPI_DOUBLE, 0, comm_);
-    for (const auto* loads : {&lastLoads_, &contact_})
+    for (const auto* loads : {&lastLoads_, &contactLoads()})
         for (const Load& l : *loads)
             for (const Vec3* v : {&l.force, &l.moment}) data.insert(data.end(), v->data(), v->data() + 3);
-    data.insert(data.end(), factors_.begin(), factors_.end());
+    for (const InertiaFactor& f : inertia_.factors()) data.insert(data.end(), {f.mass, f.turn});
     data.insert(data.end(), isHeld_.begin(), isHeld_.end());
     return data;
 }
 
 void BodyCoupling::restore(const std::vector<double>& data)
 {
-    const std::size_t tail = 14*setup_.bodies.size();
+    const std::size_t tail = 15*setup_.bodies.size();
     if (data.size() < tail) throw std::runtime_error("restart: the stored state of the bodies is too short for this case");
     const double* at = data.data() + data.size() - tail;
-    for (auto* loads : {&lastLoads_, &contact_})
+    std::vector<Load> contact(lastLoads_.size());
+    for (auto* loads : {&lastLoads_, &contact})
         for (Load& l : *loads) { get(at, l.force); get(at, l.moment); }
-    factors_.assign(at, at + factors_.size());
-    isHeld_.assign(at + factors_.size(), at + 2*factors_.size());
+    iteration_.setGuess(contact);
+    std::vector<InertiaFactor> factors(isHeld_.size());
+    for (InertiaFactor& f : factors) { f.mass = *at++; f.turn = *at++; }
+    inertia_.setFactors(factors);
+    isHeld_.assign(at, at + isHeld_.size());
     guarded([&]
     {
         engine_->setHeld(isHeld_);

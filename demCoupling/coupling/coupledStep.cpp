@@ -124,6 +124,7 @@ void CoupledStep::solveWithContact(StepResult& result)
     // the fluid was solved around the predicted places
     const std::string stray = coupling_->strayBody(strayElements*smallestCutElement());
     if (!stray.empty()) result.failure = "body '" + stray + "' ends more than " + std::to_string(int(strayElements)) + " elements from where it was predicted";
+    else result.failure = coupling_->brokenContact(largestSpeed(mesh_, halo_, fluid_.state().u));
 }
 
 double CoupledStep::smallestCutElement() const

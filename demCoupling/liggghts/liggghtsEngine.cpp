@@ -34,7 +34,7 @@ struct LiggghtsEngine::Implementation
 
     explicit Implementation(const DemSetup& given)
         : setup(checked(given)), reach(given.bodies, given.walls), isHeld(given.bodies.size(), 0),
-          loads(given.bodies.size()), factors(given.bodies.size(), 1), applied(given.bodies.size(), 1)
+          loads(given.bodies.size()), factors(given.bodies.size()), applied(given.bodies.size())
     {
         model.contacts = makeContactTable(setup);
         timeStep = setup.timeStep > 0 ? setup.timeStep : contactTimeStep(setup, model.contacts);
@@ -111,22 +111,22 @@ struct LiggghtsEngine::Implementation
         state.pose.position = asVec(b.xcm[body]);
         state.pose.orientation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
         state.motion = {asVec(b.vcm[body]), asVec(b.omega[body])};
-        state.angularMomentum = asVec(b.angmom[body]) / applied[static_cast<size_t>(body)];
+        state.angularMomentum = asVec(b.angmom[body]) / applied[static_cast<size_t>(body)].turn;
         return state;
     }
 
     /// Exact: the factors are powers of two.
-    void scaleInertia(const std::vector<double>& wanted)
+    void scaleInertia(const std::vector<InertiaFactor>& wanted)
     {
         const BodyArrays& b = model.bodies;
         for (int i = 0; i < b.count; ++i)
         {
-            const double change = wanted[static_cast<size_t>(i)] / applied[static_cast<size_t>(i)];
-            b.mass[i] *= change;
+            const InertiaFactor &to = wanted[static_cast<size_t>(i)], &from = applied[static_cast<size_t>(i)];
+            b.mass[i] *= to.mass / from.mass;
             for (int k = 0; k < 3; ++k)
             {
-                b.inertia[i][k] *= change;
-                b.angmom[i][k] *= change;
+                b.inertia[i][k] *= to.turn / from.turn;
+                b.angmom[i][k] *= to.turn / from.turn;
             }
         }
         applied = wanted;
@@ -154,7 +154,7 @@ struct LiggghtsEngine::Implementation
     ReachCheck reach;
     std::vector<char> isHeld;
     std::vector<Load> loads;            ///< of the bodies alone: over their factors
-    std::vector<double> factors, applied;
+    std::vector<InertiaFactor> factors, applied;
     LiggghtsModel model;
     double timeStep = 0;
     long subSteps = 0;
@@ -164,7 +164,7 @@ LiggghtsEngine::LiggghtsEngine(const DemSetup& setup) : impl_(std::make_unique<I
 
 LiggghtsEngine::~LiggghtsEngine() = default;
 
-void LiggghtsEngine::setInertiaFactors(const std::vector<double>& factors) { impl_->factors = factors; }
+void LiggghtsEngine::setInertiaFactors(const std::vector<InertiaFactor>& factors) { impl_->factors = factors; }
 
 void LiggghtsEngine::setLoads(const std::vector<Load>& loads)
 {
@@ -176,8 +176,8 @@ void LiggghtsEngine::setLoads(const std::vector<Load>& loads)
         // fcm and torque hold the last total: exchanging the load there makes the first half kick right
         const Load contact = impl_->contactNow(i);
         const Load& load = loads[static_cast<size_t>(i)];
-        const double factor = impl_->factors[static_cast<size_t>(i)];
-        impl_->loads[static_cast<size_t>(i)] = {load.force / factor, load.moment / factor};
+        const InertiaFactor factor = impl_->factors[static_cast<size_t>(i)];
+        impl_->loads[static_cast<size_t>(i)] = {load.force / factor.mass, load.moment / factor.turn};
         for (int k = 0; k < 3; ++k)
         {
             b.drag[i][k] = load.force[k];
@@ -204,7 +204,7 @@ void LiggghtsEngine::advance(double duration, double largestStep)
         left -= next.duration;
     }
     d.model.tally->finish(duration);
-    d.scaleInertia(std::vector<double>(d.factors.size(), 1));
+    d.scaleInertia(std::vector<InertiaFactor>(d.factors.size()));
     d.model.instance.guarded([&] {
         checkBodies(d.model, d.setup);
         d.checkMotion();

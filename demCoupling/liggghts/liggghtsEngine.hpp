@@ -36,9 +36,9 @@ public:
     LiggghtsEngine(const LiggghtsEngine&) = delete;
     LiggghtsEngine& operator=(const LiggghtsEngine&) = delete;
 
-    /// Factors, powers of two, of mass and inertia during the coming advances, and so of what the loads must be: fluid that moves with
-    /// a body. States stay those of the body itself, to the last bit.
-    void setInertiaFactors(const std::vector<double>& factors);
+    /// Of mass and inertia during the coming advances, and so of what the loads must be: fluid that moves with a body. States stay those of
+    /// the body itself, to the last bit.
+    void setInertiaFactors(const std::vector<InertiaFactor>& factors);
     /// Constant loads (fluid force, weight, ...) for the coming advance(s); exact from the first half kick.
     void setLoads(const std::vector<Load>& loads);
 

@@ -35,12 +35,18 @@ Spheres boxSpheres(const BoxShape& box, double radius, double spacing)
     return spheres;
 }
 
-/// Spheres on a ring about an axis, neighbours (along the chord) at most `spacing` apart.
+/// Half of the angle between neighbours on a circle of radius `turn`: along the chord at most `spacing`, and the flat that bridges two
+/// spheres lies at most a twentieth of their radius inside the circle around all. Thick spheres alone would make a square of a cylinder.
+double halfAngle(double turn, double sphereRadius, double spacing)
+{
+    return std::min(std::asin(std::min(1.0, 0.5 * spacing / turn)), std::acos(std::max(-1.0, 1 - 0.05 * sphereRadius / turn)));
+}
+
+/// Spheres on a ring about an axis.
 void addRing(Spheres& spheres, const Vec3& origin, const Vec3& axis, ProfilePoint p, double sphereRadius, double spacing)
 {
     const Vec3 u = anyNormalTo(axis), v = axis.cross(u);
-    const double chordRatio = std::min(1.0, 0.5 * spacing / std::max(p.radius, 1e-300));
-    const int n = p.radius > 0 ? std::max(1, parts(M_PI, std::asin(chordRatio))) : 1;
+    const int n = p.radius > 0 ? std::max(1, parts(M_PI, halfAngle(p.radius, sphereRadius, spacing))) : 1;
     for (int i = 0; i < n; ++i)
     {
         const double angle = 2 * M_PI * i / n;
@@ -67,7 +73,8 @@ Spheres cylinderSpheres(const CylinderShape& c, double radius, double spacing)
 Spheres capsuleSpheres(const CapsuleShape& c, double radius, double spacing)
 {
     const double r = std::min(radius, c.radius()), turn = c.radius() - r;
-    const int n = std::max(1, parts(2 * c.halfLength(), spacing)), m = parts(0.5 * M_PI * turn, spacing);
+    const int n = std::max(1, parts(2 * c.halfLength(), spacing));
+    const int m = turn > 0 ? parts(0.5 * M_PI, std::min(spacing / turn, 2 * halfAngle(turn, r, spacing))) : 0;
     Spheres spheres;
     for (int i = 0; i <= n; ++i)
         addRing(spheres, c.centre(), c.axis(), {c.halfLength() * (2.0 * i / n - 1), turn}, r, spacing);

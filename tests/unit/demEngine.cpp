@@ -161,7 +161,7 @@ TEST_CASE("a larger inertia changes a free path by nothing, a push by its factor
     LiggghtsEngine plain(setup), heavy(setup);
     const Load push{Vec3(0.3, -0.2, 0.1), Vec3(1e-4, 2e-4, -1e-4)};
     plain.setLoads({push});
-    heavy.setInertiaFactors({8});
+    heavy.setInertiaFactors({{8, 8}});
     heavy.setLoads({{8*push.force, 8*push.moment}});
     for (int i = 0; i < 20; ++i)
     {
@@ -172,7 +172,7 @@ TEST_CASE("a larger inertia changes a free path by nothing, a push by its factor
     CHECK(a.pose.position == b.pose.position);
     CHECK(a.motion.velocity == b.motion.velocity);
     CHECK((a.angularMomentum - b.angularMomentum).norm() < 1e-14*a.angularMomentum.norm());
-    heavy.setInertiaFactors({1});
+    heavy.setInertiaFactors({{1, 1}});
     heavy.setLoads({push});
     plain.advance(1e-3);
     heavy.advance(1e-3);

@@ -93,6 +93,27 @@ TEST_CASE("cylinder, capsule, sphere, placed")
     CHECK(one[0].centre == end1);
 }
 
+TEST_CASE("thick spheres keep a cylinder round: no plane touches it later than by 3 % of its radius")
+{
+    const double R = 0.05;
+    for (const double length : {0.02, 0.3})
+        for (const auto& shape : {makeCylinder({0, 0, 0}, {0, 0, length}, R), makeCapsule({0, 0, 0}, {0, 0, length}, R)})
+        {
+            const auto spheres = surfaceSpheres(*shape, R / 2, R);
+            checkTouching(*shape, spheres);
+            double least = 1e300;
+            for (int k = 0; k < 360; ++k)
+            {
+                const Vec3 direction(std::cos(k * M_PI / 180), std::sin(k * M_PI / 180), 0);
+                double reach = 0;
+                for (const SurfaceSphere& s : spheres) reach = std::max(reach, direction.dot(s.centre) + s.radius);
+                least = std::min(least, reach);
+            }
+            CHECK(least > 0.97 * R);
+            CHECK(spheres.size() < 120);
+        }
+}
+
 TEST_CASE("union: only spheres at the common surface")
 {
     const auto cross = makeUnion({makeBox(Vec3::Zero(), {0.3, 0.06, 0.06}), makeBox(Vec3::Zero(), {0.06, 0.3, 0.06})});

@@ -157,6 +157,31 @@ TEST_CASE("a bar a hundred times lighter than the water, thrown at a stop, is st
     CHECK(deepest < 0.1*side); // the spring takes the bar and its added mass: 0.02 m if it landed on one sphere
 }
 
+TEST_CASE("a bar that no spring stops does not pass the stop: the step fails, at any size, and leaves everything as it was")
+{
+    Channel channel;
+    BodyDefinition bar = makeBar(3000, Vec3(0.55, 0.5, 0.5));
+    bar.motion.velocity = Vec3(2, 0, 0);
+    const double stop = 0.7;
+    DemSetup dem = makeDem(bar, stop);
+    dem.laws[0].stiffness = 100;
+    CoupledStep run(channel.mesh, channel.halo, channel.fluid, channel.controls, channel.patches, Scene({}, {bar}, Vec3::Zero()), &dem,
+        channel.timers);
+    run.start(channel.rest(), true);
+    StepResult result;
+    for (int k = 0; k < 40; ++k)
+    {
+        result = run.step(0.005);
+        if (!result.isAccepted) break;
+    }
+    REQUIRE(!result.isAccepted);
+    CHECK(result.failure == "body 'bar' passes through 'stop'");
+    const double place = run.records()[0].pose.position[0];
+    CHECK(place + 0.08 < stop); // centres of the spheres in front
+    for (double dt = 0.0025; run.step(dt).isAccepted; dt *= 0.5) REQUIRE(dt > 1e-7);
+    CHECK(run.records()[0].pose.position[0] + 0.08 < stop);
+}
+
 TEST_CASE("a bar is held until its release, then has its velocity; beyond the mesh it is held again")
 {
     Channel channel;

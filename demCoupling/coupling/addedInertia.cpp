@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "demCoupling/coupling/addedInertia.hpp"
+
+#include <algorithm>
+
+namespace flotsam
+{
+
+namespace
+{
+
+constexpr double leastFactor = 8; // below, repeats converge by themselves, and in a jam the factors of neighbours disturb each other
+
+} // namespace
+
+double radiusOfInertia(const BodyDefinition& body) { return std::sqrt(body.principalInertia.maxCoeff()/body.mass); }
+
+AddedInertia::AddedInertia(const std::vector<BodyDefinition>& bodies, const CouplingControls& controls)
+:   bodies_(bodies), controls_(controls), factors_(bodies.size())
+{}
+
+InertiaFactor AddedInertia::doubt(int b) const
+{
+    const double expected = 1 + controls_.liquidDensity*bodies_[b].volume/bodies_[b].mass;
+    if (expected < leastFactor) return {};
+    return {std::max(1.0, expected/factors_[b].mass), std::max(1.0, expected/factors_[b].turn)};
+}
+
+/// What bodies answer to the changes of others spoils the answer, a factor too large diverges: only the largest changes count, and no more
+/// added mass than twice the liquid a body displaces.
+bool AddedInertia::raise(const std::vector<Load>& contactChange, const std::vector<Load>& fluidChange)
+{
+    double largest = 0;
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+        largest = std::max({largest, contactChange[b].force.norm(), contactChange[b].moment.norm()/radiusOfInertia(bodies_[b])});
+    bool isRaised = false;
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+    {
+        const BodyDefinition& body = bodies_[b];
+        const double least = std::max(0.5*largest, controls_.tolerance*body.mass*controls_.gravity); // below: answers to others, noise
+        const double most = 1 + 2*controls_.liquidDensity*body.volume/body.mass;
+        auto raiseOne = [&](double& factor, const Vec3& change, const Vec3& answer, double leastChange)
+        {
+            if (change.norm() < leastChange || change.isZero(0)) return;
+            const double r = -answer.dot(change)/change.squaredNorm();
+            if (r <= 0 || r >= 1) return;
+            const double wanted = std::min(1/(1 - r), most);
+            while (wanted >= leastFactor && 2*factor <= wanted) { factor *= 2; isRaised = true; }
+        };
+        raiseOne(factors_[b].mass, contactChange[b].force, fluidChange[b].force, least);
+        raiseOne(factors_[b].turn, contactChange[b].moment, fluidChange[b].moment, least*radiusOfInertia(body));
+    }
+    return isRaised;
+}
+
+std::vector<Load> AddedInertia::engineLoads(const std::vector<Load>& given, const std::vector<Load>& contact) const
+{
+    std::vector<Load> loads(given);
+    for (std::size_t b = 0; b < loads.size(); ++b)
+    {
+        const InertiaFactor s = factors_[b]; // 1: to the last bit
+        if (s.mass != 1) loads[b].force = s.mass*loads[b].force + (s.mass - 1)*contact[b].force;
+        if (s.turn != 1) loads[b].moment = s.turn*loads[b].moment + (s.turn - 1)*contact[b].moment;
+    }
+    return loads;
+}
+
+} // namespace flotsam

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "demCoupling/coupling/motionCheck.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace flotsam;
+
+namespace
+{
+
+constexpr double side = 0.2;
+
+BodyDefinition makeCube(const std::string& name)
+{
+    BodyDefinition cube;
+    cube.name = name;
+    cube.shape = makeBox(Vec3::Zero(), Vec3::Constant(side));
+    cube.mass = 8;
+    for (const double x : {-0.08, 0.08})
+        for (const double y : {-0.08, 0.08})
+            for (const double z : {-0.08, 0.08}) cube.spheres.push_back({Vec3(x, y, z), 0.02});
+    return cube;
+}
+
+BodyState at(double x, double y, double z)
+{
+    BodyState state;
+    state.pose.position = Vec3(x, y, z);
+    return state;
+}
+
+/// Square of 1 m around the origin, normal to x.
+WallDefinition makeSquare()
+{
+    WallDefinition wall;
+    wall.name = "square";
+    wall.kind = WallDefinition::Kind::Surface;
+    wall.surface.points = {{0, -0.5, -0.5}, {0, 0.5, -0.5}, {0, 0.5, 0.5}, {0, -0.5, 0.5}};
+    wall.surface.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return wall;
+}
+
+WallDefinition makeFloor()
+{
+    WallDefinition wall;
+    wall.name = "floor";
+    wall.point = Vec3(0, -1, 0);
+    wall.normal = Vec3::UnitY();
+    return wall;
+}
+
+} // namespace
+
+TEST_CASE("centres of spheres on the other side of a wall or in another body")
+{
+    const MotionCheck check({makeCube("first"), makeCube("second")}, {makeFloor(), makeSquare()});
+    const BodyState far = at(5, 0, 0);
+    auto passage = [&](const BodyState& before, const BodyState& after) { return check.passage({before, far}, {after, far}); };
+    CHECK(passage(at(0.09, 0.03, 0.02), at(0.081, 0.03, 0.02)) == "");              // overlap 0.019
+    CHECK(passage(at(0.09, 0.03, 0.02), at(0.079, 0.03, 0.02)) == "body 'first' passes through 'square'");
+    CHECK(passage(at(-0.09, 0.03, 0.02), at(-0.079, 0.03, 0.02)) == "body 'first' passes through 'square'");
+    CHECK(passage(at(0.09, 0.7, 0.02), at(-0.5, 0.7, 0.02)) == "");                  // beside it
+    CHECK(passage(at(0, 0.7, 0.02), at(0, 0.05, 0.02)) == "");                       // around it already, along it
+    BodyState turned = at(0.09, 0.03, 0.02);
+    turned.pose.orientation = Eigen::AngleAxisd(0.5, Vec3::UnitZ());
+    CHECK(passage(at(0.09, 0.03, 0.02), turned) == "body 'first' passes through 'square'");
+    CHECK(passage(at(2, -0.91, 0), at(2, -0.919, 0)) == "");
+    CHECK(passage(at(2, -0.91, 0), at(2, -0.921, 0)) == "body 'first' passes through 'floor'");
+
+    const BodyState other = at(3, 0, 0);
+    CHECK(check.passage({at(2.81, 0, 0), other}, {at(2.819, 0, 0), other}) == "");
+    CHECK(check.passage({at(2.81, 0, 0), other}, {at(2.821, 0, 0), other}) == "body 'first' passes into body 'second'");
+    CHECK(check.passage({other, at(2.81, 0, 0)}, {other, at(2.821, 0, 0)}) == "body 'second' passes into body 'first'");
+    CHECK(check.passage({at(2.9, 0, 0), other}, {at(2.91, 0, 0), other}) == "");     // was inside: not this step's doing
+}
+
+TEST_CASE("a body that contact throws faster than anything there is")
+{
+    const MotionCheck check({makeCube("first"), makeCube("second")}, {});
+    BodyState slow = at(0, 0, 0), quick = at(1, 0, 0);
+    slow.motion.velocity = Vec3(1, 0, 0);
+    const std::vector<Load> touching{{Vec3(1, 0, 0), Vec3::Zero()}, {Vec3(-1, 0, 0), Vec3::Zero()}}, apart(2);
+    auto thrown = [&](double speed, const std::vector<Load>& contact, double fluid)
+    {
+        quick.motion.velocity = Vec3(0, speed, 0);
+        return check.thrownBody({slow, at(1, 0, 0)}, {slow, quick}, contact, fluid, 0.1);
+    };
+    CHECK(thrown(3.0, touching, 0) == "");
+    CHECK(thrown(3.2, touching, 0) == "second");
+    CHECK(thrown(3.2, apart, 0) == "");
+    CHECK(thrown(3.2, touching, 2) == "");
+    CHECK(thrown(std::nan(""), touching, 0) == "second");
+}
+
+TEST_CASE("a body far from its prediction")
+{
+    const MotionCheck check({makeCube("first")}, {});
+    BodyState turned = at(0, 0, 0);
+    turned.pose.orientation = Eigen::AngleAxisd(0.1, Vec3::UnitZ());
+    CHECK(check.strayBody({at(0, 0, 0)}, {at(0.1, 0, 0)}, 0.11) == "");
+    CHECK(check.strayBody({at(0, 0, 0)}, {at(0.1, 0, 0)}, 0.09) == "first");
+    CHECK(check.strayBody({at(0, 0, 0)}, {turned}, 0.02) == "");
+    CHECK(check.strayBody({at(0, 0, 0)}, {turned}, 0.01) == "first");
+}
