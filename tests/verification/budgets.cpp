@@ -2,6 +2,7 @@
 /// Momentum and energy of fluid, free surface, body and contact in a closed box.
 #include "demCoupling/coupling/coupledStep.hpp"
 #include "equations/initialProfile.hpp"
+#include "equations/surfaceLevel.hpp"
 #include "support/budgets.hpp"
 #include "support/flowCases.hpp"
 
@@ -23,13 +24,16 @@ FlowState tankState(const SimplexMesh& mesh, const Halo& halo, const NumericsCon
 {
     FlowState state = restState(mesh);
     const NodeGraph graph(mesh);
+    const DualCells cells(mesh);
     const std::vector<double> width = interfaceWidth(mesh, graph, halo, controls.interfaceWidth);
     for (int i = 0; i < mesh.nNodes; ++i)
     {
         const double* x = &mesh.x[std::size_t(i)*mesh.dim];
         const double height = level + slope*(x[0] - 0.5) - amplitude*std::cos(M_PI*x[0]);
-        const double steepness = slope + amplitude*M_PI*std::sin(M_PI*x[0]);
-        state.alpha[i] = 1/(1 + std::exp((x[mesh.dim - 1] - height)/std::sqrt(1 + steepness*steepness)/width[i]));
+        const double steepness = slope + amplitude*M_PI*std::sin(M_PI*x[0]), length = std::sqrt(1 + steepness*steepness);
+        double normal[3] = {steepness/length};
+        normal[mesh.dim - 1] = -1/length;
+        state.alpha[i] = profileSlab(&cells, i, normal, (height - x[mesh.dim - 1])/length, width[i]).mean();
     }
     state.alphaOld = state.alphaOlder = state.alpha;
     return state;

@@ -5,6 +5,7 @@
 #include "equations/gravity.hpp"
 #include "equations/initialProfile.hpp"
 #include "equations/materials.hpp"
+#include "equations/surfaceLevel.hpp"
 #include "support/flowCases.hpp"
 
 #include <doctest/doctest.h>
@@ -24,6 +25,25 @@ using Level = std::function<double(const double*)>;     // distance from the sur
 
 struct Defect { double head, weight; };
 
+std::array<double, 3> normalOf(int dim, const Level& level, const double* x)
+{
+    constexpr double step = 1e-6;   // [m]
+    std::array<double, 3> normal{};
+    double length = 0;
+    for (int d = 0; d < dim; ++d)
+    {
+        std::array<double, 3> up{}, down{};
+        std::copy(x, x + dim, up.begin());
+        down = up;
+        up[d] += step;
+        down[d] -= step;
+        normal[d] = level(up.data()) - level(down.data());
+        length += normal[d]*normal[d];
+    }
+    for (double& v : normal) v /= std::sqrt(std::max(length, 1e-30)); // 0 in the middle of a sheet
+    return normal;
+}
+
 /// rho of a level's equilibrium profile and the balanced force.
 void balancedForce(const SimplexMesh& mesh, const Level& level, std::vector<double>& rho, std::vector<double>& f)
 {
@@ -32,15 +52,16 @@ void balancedForce(const SimplexMesh& mesh, const Level& level, std::vector<doub
     const NodeGraph graph(mesh);
     const NumericsControls controls;
     const std::vector<double> width = interfaceWidth(mesh, graph, halo, controls.interfaceWidth);
+    const DualCells cells(mesh);
     std::vector<double> alpha(mesh.nNodes);
     rho.resize(mesh.nNodes);
     for (int i = 0; i < mesh.nNodes; ++i)
     {
-        alpha[i] = 1/(1 + std::exp(-level(&mesh.x[std::size_t(i)*dim])/width[i]));
+        alpha[i] = profileSlab(&cells, i, normalOf(dim, level, &mesh.x[std::size_t(i)*dim]).data(), level(&mesh.x[std::size_t(i)*dim]), width[i]).mean();
         rho[i] = density(FluidProperties{}, controls, alpha[i]);
     }
     InterfacePlanes planes;
-    propagateInterfacePlanes(mesh, graph, halo, alpha, width, controls.gravityLayers, planes);
+    propagateInterfacePlanes(mesh, graph, halo, alpha, width, controls.gravityLayers, planes, nullptr, &cells);
     std::vector<double> ofSurface;
     surfaceDensity(mesh, FluidProperties{}, controls, planes, width, alpha, ofSurface);
     std::array<double, 3> g{};
