@@ -42,6 +42,7 @@ std::array<double, 2> speedsAfter(int dim, int n, bool hasSolid, double time, do
         const double d = c*(level - x[dim - 1]) + s*(0.1 - x[0]);
         state.alpha[i] = profileSlab(&cells, i, normal, d, width[i]).mean();
     }
+    halo.update(state.alpha, 1);    // cells of second-ring copies are not whole
     state.alphaOld = state.alphaOlder = state.alpha;
     fluid.start(state, false);
     std::vector<Solid> solids(1);
