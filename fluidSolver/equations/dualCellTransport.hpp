@@ -49,6 +49,7 @@ public:
 
     /// Interface width delta of a node [m]: controls.interfaceWidth times the mean element length around it.
     const std::vector<double>& width() const { return width_; }
+    const DualCells& cells() const { return cells_; }
 
     /// Fluid volume of the dual cell of every local node [m^dim] (complete for owned and first-ring nodes), at the end
     /// of the last advance() (before it: no solids).

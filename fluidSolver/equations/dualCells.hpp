@@ -47,6 +47,7 @@ class DualCells
 public:
     explicit DualCells(const SimplexMesh& mesh);
 
+    int dim() const { return dim_; }
     double volume(int i) const { return volume_[i]; }                           ///< [m^dim]
     const double* centroid(int i) const { return &centroid_[std::size_t(i)*dim_]; }  ///< relative to the node, dim [m]
 

@@ -5,6 +5,7 @@
 #include "equations/materials.hpp"
 #include "equations/solidExtension.hpp"
 #include "equations/initialProfile.hpp"
+#include "equations/surfaceLevel.hpp"
 #include "geometry/meanCover.hpp"
 
 #include <algorithm>
@@ -39,7 +40,7 @@ void Fluid::start(FlowState state, bool isSharp)
     if (state_.uOld.size() != n) state_.uOld = state_.u;
     if (state_.pOld.size() != state_.p.size()) state_.pOld = state_.p;
     if (!fluid_.isTwoPhase) state_.alpha.assign(mesh_.nNodes, 1.0);
-    else if (isSharp) makeStartProfile(mesh_, graph_, halo_, transport_.width(), state_.alpha, state_.startLiquid);
+    else if (isSharp) makeStartProfile(mesh_, graph_, halo_, transport_.width(), state_.alpha, state_.startLiquid, profileCells());
     if (isSharp || state_.alphaOld.size() != state_.alpha.size()) state_.alphaOld = state_.alphaOlder = state_.alpha;
     const std::size_t fine = std::size_t(mesh_.nElements)*mesh_.dim;
     if (state_.fineScale.size() != fine)
@@ -139,10 +140,11 @@ TransportReport Fluid::beginStep(double dt)
 void Fluid::extendPhase()
 {
     extendIntoSolids(mesh_, graph_, halo_, *cover_, state_.alpha);
-    propagateInterfacePlanes(mesh_, graph_, halo_, state_.alpha, transport_.width(), controls_.gravityLayers, planes_, cover_);
+    propagateInterfacePlanes(mesh_, graph_, halo_, state_.alpha, transport_.width(), controls_.gravityLayers, planes_, cover_, profileCells());
     for (int i : planes_.nodes())
     {
-        if (!cover_->isActiveNode[i]) state_.alpha[i] = 1/(1 + std::exp(-planes_.distance(i)/transport_.width()[i]));
+        if (!cover_->isActiveNode[i])
+            state_.alpha[i] = profileSlab(profileCells(), i, planes_.normal(i), planes_.distance(i), transport_.width()[i]).mean();
     }
     halo_.update(state_.alpha, 1);
 }
@@ -155,7 +157,7 @@ void Fluid::setGravity(const Cover* cover)
     const bool isBalanced = fluid_.isTwoPhase && controls_.balancedGravity;
     if (isBalanced)
     {
-        propagateInterfacePlanes(mesh_, graph_, halo_, state_.alpha, transport_.width(), controls_.gravityLayers, planes_, cover_);
+        propagateInterfacePlanes(mesh_, graph_, halo_, state_.alpha, transport_.width(), controls_.gravityLayers, planes_, cover_, profileCells());
         surfaceDensity(mesh_, fluid_, controls_, planes_, transport_.width(), state_.alpha, ofSurface);
     }
     gravityForce(mesh_, fluid_.gravity, rho, isBalanced ? &planes_ : nullptr, ofSurface, cover, force_);

@@ -3,6 +3,7 @@
 
 #include "equations/dualCells.hpp"
 #include "equations/interfacePlanes.hpp"
+#include "equations/surfaceLevel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,13 +17,8 @@ namespace
 /// The profile has reached 0 or 1 to 1e-15 within this many rings of nodes for any sensible width.
 constexpr int profileRings = 12;
 
-double logistic(double x)
-{
-    return x > 0 ? 1/(1 + std::exp(-x)) : std::exp(x)/(1 + std::exp(x));
-}
-
-/// Signed distance in widths. The plane's sign is wrong behind corners of the surface: there the sharp field knows better.
-double profileArgument(const SimplexMesh& mesh, const InterfacePlanes& planes, int i, double sharp, double width)
+/// Signed distance [m]. The plane's sign is wrong behind corners of the surface: there the sharp field knows better.
+double profileDistance(const SimplexMesh& mesh, const InterfacePlanes& planes, int i, double sharp)
 {
     double d = planes.distance(i);
     const bool isBulk = sharp < 1e-6 || sharp > 1 - 1e-6;
@@ -36,19 +32,19 @@ double profileArgument(const SimplexMesh& mesh, const InterfacePlanes& planes, i
         }
         d = sharp > 0.5 ? std::sqrt(s) : -std::sqrt(s);
     }
-    return d/width;
+    return d;
 }
 
 /// {int alpha, d(int alpha)/d(shift)} over owned nodes of all ranks, for d shifted by `shift` [m].
 std::array<double, 2> volumeOfProfile(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& volume,
-    const std::vector<double>& argument, const std::vector<double>& width, double shift)
+    const std::vector<ProfileSlab>& slabs, const std::vector<double>& width, double shift)
 {
     double sums[2] = {0, 0};
     for (int i = 0; i < mesh.nOwned; ++i)
     {
-        const double a = logistic(argument[i] + shift/width[i]);
-        sums[0] += volume[i]*a;
-        sums[1] += volume[i]*a*(1 - a)/width[i];
+        const ProfileSlab slab{slabs[i].middle + shift/width[i], slabs[i].thickness};
+        sums[0] += volume[i]*slab.mean();
+        sums[1] += volume[i]*slab.slope()/width[i];
     }
     halo.sum(sums, 2);
     return {sums[0], sums[1]};
@@ -56,7 +52,7 @@ std::array<double, 2> volumeOfProfile(const SimplexMesh& mesh, const Halo& halo,
 
 /// Shift of the surface [m] that gives the profile the volume `target`: Newton steps no longer than half a width.
 double volumeKeepingShift(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& volume,
-    const std::vector<double>& argument, const std::vector<double>& width, double target)
+    const std::vector<ProfileSlab>& slabs, const std::vector<double>& width, double target)
 {
     double smallest = 1e300;
     for (int i = 0; i < mesh.nOwned; ++i)
@@ -66,7 +62,7 @@ double volumeKeepingShift(const SimplexMesh& mesh, const Halo& halo, const std::
     double shift = 0;
     for (int iteration = 0; iteration < 50; ++iteration)
     {
-        const auto [value, slope] = volumeOfProfile(mesh, halo, volume, argument, width, shift);
+        const auto [value, slope] = volumeOfProfile(mesh, halo, volume, slabs, width, shift);
         if (slope <= 0 || std::abs(value - target) <= 1e-14*std::abs(target))
             break;
         const double step = std::clamp((target - value)/slope, -longestStep, longestStep);
@@ -94,7 +90,7 @@ std::vector<double> interfaceWidth(const SimplexMesh& mesh, const NodeGraph& gra
 }
 
 void makeStartProfile(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo,
-    const std::vector<double>& width, std::vector<double>& alpha, double liquid)
+    const std::vector<double>& width, std::vector<double>& alpha, double liquid, const DualCells* cells)
 {
     std::vector<double> level(alpha);
     for (double& l : level)
@@ -114,13 +110,15 @@ void makeStartProfile(const SimplexMesh& mesh, const NodeGraph& graph, const Hal
     }
 
     constexpr double far = 1e3;     // widths: 0 or 1 exactly
-    std::vector<double> argument(mesh.nNodes);
-    for (int i = 0; i < mesh.nNodes; ++i)
-        argument[i] = planes.has(i) ? profileArgument(mesh, planes, i, alpha[i], width[i]) : alpha[i] > 0.5 ? far : -far;
-
-    const double shift = volumeKeepingShift(mesh, halo, volume, argument, width, liquid);
+    std::vector<ProfileSlab> slabs(mesh.nOwned);
     for (int i = 0; i < mesh.nOwned; ++i)
-        alpha[i] = logistic(argument[i] + shift/width[i]);
+    {
+        if (planes.has(i)) slabs[i] = profileSlab(cells, i, planes.normal(i), profileDistance(mesh, planes, i, alpha[i]), width[i]);
+        else slabs[i] = {alpha[i] > 0.5 ? far : -far, 0};
+    }
+    const double shift = volumeKeepingShift(mesh, halo, volume, slabs, width, liquid);
+    for (int i = 0; i < mesh.nOwned; ++i)
+        alpha[i] = ProfileSlab{slabs[i].middle + shift/width[i], slabs[i].thickness}.mean();
     halo.update(alpha, 1);
 }
 

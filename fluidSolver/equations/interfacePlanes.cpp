@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "equations/interfacePlanes.hpp"
 
+#include "equations/surfaceLevel.hpp"
 #include "geometry/cover.hpp"
 
 #include <algorithm>
@@ -264,19 +265,9 @@ void InterfacePlanes::propagate(const SimplexMesh& mesh, const NodeGraph& graph,
 
 void propagateInterfacePlanes(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo,
     const std::vector<double>& alpha, const std::vector<double>& width, int nRings, InterfacePlanes& planes,
-    const Cover* cover)
+    const Cover* cover, const DualCells* cells)
 {
-    // As far out as the transport keeps the profile: nodes of cut elements lie up to 1.1 h from the surface on slanted triangles, 1.7 h in
-    // tetrahedra, and a level cut off there tilts the element's plane.
-    constexpr double lowest = 1e-4, highest = 1 - lowest;
-    const double clip = std::log(highest/lowest);
-    std::vector<double> level(mesh.nNodes);
-    for (int i = 0; i < mesh.nNodes; ++i)
-    {
-        const double a = alpha[i];
-        level[i] = width[i]*(a <= lowest ? -clip : a >= highest ? clip : std::log(a/(1 - a)));
-    }
-    planes.propagate(mesh, graph, halo, level, nRings, cover, true);
+    planes.propagate(mesh, graph, halo, surfaceLevel(mesh, halo, alpha, width, cells, cover), nRings, cover, true);
 }
 
 } // namespace flotsam

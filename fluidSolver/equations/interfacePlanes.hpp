@@ -9,6 +9,7 @@
 namespace flotsam
 {
 
+class DualCells;
 struct Cover;
 
 /// The nearest surface plane of every node near the surface.
@@ -53,10 +54,9 @@ private:
     std::vector<double> before_;    // halo entries before an exchange
 };
 
-/// Planes of the level alpha = 0.5: level = width ln(alpha/(1-alpha)), alpha limited to [1e-4, 1 - 1e-4], whose gradient is 1 in the
-/// equilibrium profile, so that slope() is the actual steepness relative to it; with mean normals. width: nNodes [m].
+/// Planes of the zero level of surfaceLevel(), with mean normals. width: nNodes [m]; cells: see there.
 void propagateInterfacePlanes(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo,
     const std::vector<double>& alpha, const std::vector<double>& width, int nRings, InterfacePlanes& planes,
-    const Cover* cover = nullptr);
+    const Cover* cover = nullptr, const DualCells* cells = nullptr);
 
 } // namespace flotsam

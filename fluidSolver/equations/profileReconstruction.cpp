@@ -34,13 +34,6 @@ double roofFactorOf(double coherence)
     return 0.7 + 0.55*std::clamp((coherence - 0.5)/0.45, 0., 1.);
 }
 
-/// exp(psi at the middle of a slab) from the mean alpha of 1/(1+exp(-psi)) over it; thickness in widths.
-double frontFromMean(double alpha, double thickness)
-{
-    const double a = std::exp(0.5*thickness), b = std::expm1(thickness*alpha);
-    return std::max(b/(a - (b + 1)/a), 1e-300);
-}
-
 /// One element's part of a roof cell as a slab: mean of its profile = log((1 + X upper)/(1 + X lower))/thickness, X = exp(psi at the node).
 struct RoofPart { double weight, upper, lower, thickness; };
 

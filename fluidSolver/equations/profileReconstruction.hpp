@@ -43,6 +43,13 @@ inline double sweptMean(double psi, double swept)
     return std::log((1 + std::exp(first))/(1 + std::exp(last)))/(first - last);
 }
 
+/// exp(psi at the middle of a slab) from the mean alpha of 1/(1+exp(-psi)) over it; thickness in widths.
+inline double frontFromMean(double alpha, double thickness)
+{
+    const double a = std::exp(0.5*thickness), b = std::expm1(thickness*alpha);
+    return std::max(b/(a - (b + 1)/a), 1e-300);
+}
+
 class ProfileReconstruction
 {
 public:

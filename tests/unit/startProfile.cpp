@@ -2,6 +2,7 @@
 #include "equations/dualCells.hpp"
 #include "equations/initialProfile.hpp"
 #include "equations/interfacePlanes.hpp"
+#include "equations/surfaceLevel.hpp"
 #include "support/boxMesh.hpp"
 
 #include <doctest/doctest.h>
@@ -141,6 +142,34 @@ TEST_CASE("interface planes: exact for a plane surface, in all directions and on
                     CHECK(planes.has(i));
                 }
             }
+        }
+    }
+}
+
+TEST_CASE("surface level: the distance from a plane whose profile the dual cells have as means, in all directions and on moved nodes")
+{
+    for (const int dim : {2, 3})
+    {
+        const Scene scene(MPI_COMM_WORLD, dim, 10, 0.19);
+        const DualCells cells(scene.mesh);
+        const double steep[3] = {0.48, dim == 2 ? 0.87727 : 0.6, 0.64}, level[3] = {0, dim == 2 ? 1. : 0, 1};
+        for (const double* direction : {steep, level})
+        {
+            double n[3] = {}, length = 0;
+            for (int d = 0; d < dim; ++d) length += direction[d]*direction[d];
+            for (int d = 0; d < dim; ++d) n[d] = direction[d]/std::sqrt(length);
+            std::vector<double> alpha(scene.mesh.nNodes), exact(scene.mesh.nNodes, -0.51);
+            for (int i = 0; i < scene.mesh.nNodes; ++i)
+            {
+                for (int d = 0; d < dim; ++d) exact[i] += n[d]*scene.mesh.x[std::size_t(i)*dim + d];
+                alpha[i] = profileSlab(&cells, i, n, exact[i], scene.width[i]).mean();
+            }
+            scene.halo.update(alpha, 1);    // cells of second-ring copies are not whole
+            const std::vector<double> found = surfaceLevel(scene.mesh, scene.halo, alpha, scene.width, &cells, nullptr);
+            double worst = 0;
+            for (int i = 0; i < scene.mesh.nNodes; ++i)
+                if (std::abs(exact[i]) < 0.15) worst = std::max(worst, std::abs(found[i] - exact[i]));
+            CHECK(scene.halo.max(worst) < 1e-7);
         }
     }
 }

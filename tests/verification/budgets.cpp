@@ -2,6 +2,7 @@
 /// Momentum and energy of fluid, free surface, body and contact in a closed box.
 #include "demCoupling/coupling/coupledStep.hpp"
 #include "equations/initialProfile.hpp"
+#include "equations/surfaceLevel.hpp"
 #include "support/budgets.hpp"
 #include "support/flowCases.hpp"
 
@@ -23,14 +24,18 @@ FlowState tankState(const SimplexMesh& mesh, const Halo& halo, const NumericsCon
 {
     FlowState state = restState(mesh);
     const NodeGraph graph(mesh);
+    const DualCells cells(mesh);
     const std::vector<double> width = interfaceWidth(mesh, graph, halo, controls.interfaceWidth);
     for (int i = 0; i < mesh.nNodes; ++i)
     {
         const double* x = &mesh.x[std::size_t(i)*mesh.dim];
         const double height = level + slope*(x[0] - 0.5) - amplitude*std::cos(M_PI*x[0]);
-        const double steepness = slope + amplitude*M_PI*std::sin(M_PI*x[0]);
-        state.alpha[i] = 1/(1 + std::exp((x[mesh.dim - 1] - height)/std::sqrt(1 + steepness*steepness)/width[i]));
+        const double steepness = slope + amplitude*M_PI*std::sin(M_PI*x[0]), length = std::sqrt(1 + steepness*steepness);
+        double normal[3] = {steepness/length};
+        normal[mesh.dim - 1] = -1/length;
+        state.alpha[i] = profileSlab(&cells, i, normal, (height - x[mesh.dim - 1])/length, width[i]).mean();
     }
+    halo.update(state.alpha, 1); // cells of second-ring copies are not whole
     state.alphaOld = state.alphaOlder = state.alpha;
     return state;
 }
@@ -294,13 +299,16 @@ TEST_CASE("action equals reaction to round-off: walls and ghost faces exchange w
     }
 }
 
-/// By int alpha (x - 1/2) dV, the tilt of the surface, whatever the thickness of its profile (int h (x - 1/2) dx of column heights h).
-TEST_CASE("the amplitude of a sloshing wave never grows")
+namespace
+{
+
+/// int alpha (x - 1/2) dV over time, the tilt of the surface, whatever the thickness of its profile (int h (x - 1/2) dx of column heights h).
+std::vector<double> tiltsOfWave(double level, double amplitude, int nSteps)
 {
     Run run(2, 32);
     CoupledStep step(run.mesh, run.halo, run.fluid, run.controls, allPatches(run.mesh, BoundaryPatch::Velocity::Slip),
         Scene({}, {}, Vec3(0, -gravity, 0)), nullptr, run.timers);
-    step.start(tankState(run.mesh, run.halo, run.controls, 0.5, 0, 0.04), false);
+    step.start(tankState(run.mesh, run.halo, run.controls, level, 0, amplitude), false);
     auto tilt = [&]
     {
         double sum = 0;
@@ -316,11 +324,19 @@ TEST_CASE("the amplitude of a sloshing wave never grows")
         return run.halo.sum(sum);
     };
     std::vector<double> tilts = {tilt()};
-    for (int k = 0; k < 1450; ++k) // five periods
+    for (int k = 0; k < nSteps; ++k)
     {
         REQUIRE(step.step(4e-3).isAccepted);
         tilts.push_back(tilt());
     }
+    return tilts;
+}
+
+} // namespace
+
+TEST_CASE("the amplitude of a sloshing wave does not grow")
+{
+    const std::vector<double> tilts = tiltsOfWave(0.5, 0.04, 1450); // five periods
     // crest and trough, two a period; their difference, because a tilt of 1e-3 stays on the mesh of one-sided diagonals
     std::vector<double> extremes = {tilts[0]};
     for (std::size_t k = 1; k + 1 < tilts.size(); ++k)
@@ -333,16 +349,35 @@ TEST_CASE("the amplitude of a sloshing wave never grows")
     {
         const double height = std::abs(extremes[k] - extremes[k - 1])/std::abs(extremes[1] - extremes[0]);
         if (isRootRank()) std::printf("wave height %d: %.4f of the first\n", int(k), height);
-        CHECK(height <= last);
+        CHECK(height <= last + 0.002); // viscosity takes 0.0012 of it, and mesh and higher modes leave 0.001 either way
         last = height;
     }
-    CHECK(last > 0.9); // measured 0.956 after four and a half periods
+    CHECK(last < 0.99); // viscosity alone: 0.989
+    CHECK(last > 0.97); // measured 0.983 after four and a half periods
 }
 
-// Not reached: it rises by 0.70 J of 16.4 J within 0.8 s
-TEST_CASE("the total energy of a sloshing tank does not rise" * doctest::skip())
+/// A wave lower than an element: its gravity must not depend on where between the nodes the surface lies.
+TEST_CASE("a small wave has its period wherever the surface lies in the mesh")
+{
+    constexpr double h = 1./32, k = M_PI, dt = 4e-3;
+    for (double place : {0.0, 0.25, 0.5})
+    {
+        const double level = 0.5 + place*h;
+        const std::vector<double> tilts = tiltsOfWave(level, 0.2*h, 450);
+        std::vector<double> crossing;
+        for (std::size_t s = 1; s < tilts.size(); ++s)
+            if (tilts[s]*tilts[s - 1] < 0) crossing.push_back(dt*(double(s) - tilts[s]/(tilts[s] - tilts[s - 1])));
+        REQUIRE(crossing.size() >= 3);
+        const double frequency = std::sqrt(gravity*k*999/(1000/std::tanh(k*level) + 1/std::tanh(k*(1 - level))));
+        const double period = (crossing[2] - crossing[0])*frequency/(2*M_PI);
+        if (isRootRank()) std::printf("surface %.2f h above a row of nodes: period %.4f of the exact one\n", place, period);
+        CHECK(period == doctest::Approx(1).epsilon(0.01));
+    }
+}
+
+TEST_CASE("the total energy of a sloshing tank does not rise")
 {
     const Account a = sloshing(200);
-    CHECK(a.rise < 0.02*waveEnergy);
-    CHECK(a.released > 0);
+    CHECK(a.rise < 0.02*waveEnergy); // measured 0.17 J of 16.4 J
+    CHECK(a.released > -0.01*waveEnergy);
 }

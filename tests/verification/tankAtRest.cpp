@@ -2,6 +2,7 @@
 /// Water under air at rest on irregular meshes stays at rest, with and without a solid that pierces the surface.
 #include "equations/fluid.hpp"
 #include "equations/initialProfile.hpp"
+#include "equations/surfaceLevel.hpp"
 #include "geometry/coverBuilder.hpp"
 #include "support/flowCases.hpp"
 
@@ -31,13 +32,17 @@ std::array<double, 2> speedsAfter(int dim, int n, bool hasSolid, double time, do
     Fluid fluid(mesh, halo, properties, controls, allPatches(mesh, BoundaryPatch::Velocity::Slip));
     FlowState state = restState(mesh);
     const double level = 0.1 + 0.37*0.2/n;
+    const DualCells cells(mesh);
+    double normal[3] = {-s};
+    normal[dim - 1] = -c;
     const std::vector<double> width = interfaceWidth(mesh, fluid.graph(), halo, controls.interfaceWidth);
     for (int i = 0; i < mesh.nNodes; ++i)
     {
         const double* x = &mesh.x[std::size_t(i)*dim];
         const double d = c*(level - x[dim - 1]) + s*(0.1 - x[0]);
-        state.alpha[i] = 1/(1 + std::exp(-d/width[i]));
+        state.alpha[i] = profileSlab(&cells, i, normal, d, width[i]).mean();
     }
+    halo.update(state.alpha, 1);    // cells of second-ring copies are not whole
     state.alphaOld = state.alphaOlder = state.alpha;
     fluid.start(state, false);
     std::vector<Solid> solids(1);

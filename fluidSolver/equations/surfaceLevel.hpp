@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Where the free surface is, from a phase field whose values are means over dual cells.
+#pragma once
+
+#include "algebra/halo.hpp"
+#include "equations/dualCells.hpp"
+
+namespace flotsam
+{
+
+/// A dual cell as a slab along the surface's normal, in widths of the profile: distance of its middle from the surface, thickness.
+struct ProfileSlab
+{
+    double middle, thickness;
+
+    double mean() const;    ///< of 1/(1+exp(-psi)) over the slab
+    double slope() const;   ///< of mean() by middle
+};
+
+/// cells null: the profile's value at the node. distance: of the node from the surface [m]; normal: unit, into the liquid.
+ProfileSlab profileSlab(const DualCells* cells, int i, const double* normal, double distance, double width);
+
+/// Distance of every node from the surface [m], positive in the liquid: width ln(alpha/(1-alpha)), alpha limited to [1e-4, 1 - 1e-4], as if alpha were
+/// the profile's value at the node. With cells alpha is its mean over the dual cell, as the transport moves it: the value at the node would let the
+/// surface lag behind or run ahead of what has flowed, by its place between the nodes (docs/numerics.md, section 2). The mean depends on the
+/// surface's direction, the gradient of the result: found by repetition. Collective.
+std::vector<double> surfaceLevel(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& alpha,
+    const std::vector<double>& width, const DualCells* cells, const Cover* cover);
+
+} // namespace flotsam
