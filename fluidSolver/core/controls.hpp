@@ -24,7 +24,7 @@ struct NumericsControls
     // time
     int timeOrder = 2;              ///< 1: BDF1, 2: BDF2
     // stabilisation (paper eq 5)
-    double tauFactor = 0.25;        ///< tau of SUPG and PSPG over the element's time; 1: Tezduyar's
+    double tauFactor = 0.25;        ///< tau of SUPG and PSPG over Tezduyar's where inertia counts
     double tauContFactor = 1;       ///< multiplies tau_cont
     bool tauContWithTimeStep = true; ///< tau_cont = rho h^2/(12 tau) with the time step inside tau (twophase), else rho(nu + |a|h/2)
     // embedded boundary
@@ -34,7 +34,7 @@ struct NumericsControls
     double ghostVelocity = 0.05, ghostConvection = 0.01, ghostPressure = 0.05;
     // phase field
     bool dualCellTransport = true;  ///< false: the paper's SUPG form (eq 9)
-    double interfaceWidth = 0.25;  ///< delta over local element length
+    double interfaceWidth = 0.2;  ///< delta over local element length
     double mobility = 0;            ///< gamma over |u|max of the optional model flux
     double transportCourant = 0.9;  ///< limit of dt sum(outflow)/V of a sub-step
     double densityClip = 0.002;     ///< c of balance.md 1.1d

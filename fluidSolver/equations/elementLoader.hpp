@@ -140,7 +140,7 @@ inline bool loadResidualData(int e, const SimplexMesh& mesh, const FlowStepData&
     double speed = 0;
     for (int d = 0; d < D; ++d) speed += data.advection[d]*data.advection[d];
     source.elementTime = elementTime(step.time.dt, std::sqrt(speed), h, nu);
-    data.tau = controls.tauFactor*source.elementTime;
+    data.tau = tauMomentum(controls.tauFactor, step.time.dt, std::sqrt(speed), h, nu);
     for (int d = 0; d < D; ++d)
         data.force[d] = step.elementForce ? (*step.elementForce)[std::size_t(e)*D + d] : 0;
     data.prepare();
