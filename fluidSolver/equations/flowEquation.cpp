@@ -133,7 +133,12 @@ void FlowEquation::removeMassDefect()
         if (!carriesMass_[i] || isOpen_[i] || (step_.gas && step_.gas->isEdge()[i])) continue;
         double* m = &system_.matrix.velocity[std::size_t(graph_.diagonal[i])*D*D];
         const double removed = std::min(defect_[i], 0.5*mass_[i]);
-        for (int d = 0; d < D; ++d) m[d*D + d] -= removed;
+        for (int d = 0; d < D; ++d)
+        {
+            m[d*D + d] -= removed;
+            // more would make the mass negative: the rest resists a change of velocity instead of the velocity itself
+            system_.rhs[std::size_t(i)*(D + 1) + d] += (defect_[i] - removed)*step_.state->u[std::size_t(i)*D + d];
+        }
     }
 }
 
