@@ -86,6 +86,7 @@ private:
     void setGravity(const Cover* cover);
     void setFirstGuess();
     TransportReport advancePhase(double dt);
+    double levelTolerance() const;
     /// Over which the phase field is a mean; null: its values are the nodes'.
     const DualCells* profileCells() const { return supg_ ? nullptr : &transport_.cells(); }
     const std::vector<double>& halfStep(const std::vector<double>& now, const std::vector<double>& old, double dt,

@@ -265,9 +265,9 @@ void InterfacePlanes::propagate(const SimplexMesh& mesh, const NodeGraph& graph,
 
 void propagateInterfacePlanes(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo,
     const std::vector<double>& alpha, const std::vector<double>& width, int nRings, InterfacePlanes& planes,
-    const Cover* cover, const DualCells* cells)
+    const Cover* cover, const DualCells* cells, double tolerance)
 {
-    planes.propagate(mesh, graph, halo, surfaceLevel(mesh, halo, alpha, width, cells, cover), nRings, cover, true);
+    planes.propagate(mesh, graph, halo, surfaceLevel(mesh, halo, alpha, width, cells, cover, tolerance), nRings, cover, true);
 }
 
 } // namespace flotsam

@@ -18,7 +18,6 @@ namespace
 constexpr double lowest = 1e-4, highest = 1 - lowest;
 
 constexpr int mostRepeats = 12;
-constexpr double sameLevel = 1e-10;     // change in widths that ends the repeats
 constexpr double lastChoice = 1e-12;    // weight of elements whose level is known at some nodes only: no others, or they do not count
 
 bool isInBand(double alpha) { return alpha > lowest && alpha < highest; }
@@ -100,7 +99,7 @@ ProfileSlab profileSlab(const DualCells* cells, int i, const double* normal, dou
 }
 
 std::vector<double> surfaceLevel(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& alpha,
-    const std::vector<double>& width, const DualCells* cells, const Cover* cover)
+    const std::vector<double>& width, const DualCells* cells, const Cover* cover, double tolerance)
 {
     const int dim = mesh.dim, n = dim + 1;
     const double clip = std::log(highest/lowest);
@@ -142,7 +141,7 @@ std::vector<double> surfaceLevel(const SimplexMesh& mesh, const Halo& halo, cons
             level[i] = found;
         }
         halo.update(level, 1);
-        if (halo.max(change) < sameLevel) break;
+        if (halo.max(change) < tolerance) break;
     }
     return level;
 }

@@ -23,8 +23,9 @@ ProfileSlab profileSlab(const DualCells* cells, int i, const double* normal, dou
 /// Distance of every node from the surface [m], positive in the liquid: width ln(alpha/(1-alpha)), alpha limited to [1e-4, 1 - 1e-4], as if alpha were
 /// the profile's value at the node. With cells alpha is its mean over the dual cell, as the transport moves it: the value at the node would let the
 /// surface lag behind or run ahead of what has flowed, by its place between the nodes (docs/numerics.md, section 2). The mean depends on the
-/// surface's direction, the gradient of the result: found by repetition. Collective.
+/// surface's direction, the gradient of the result: found by repetition, until nothing changes by more than `tolerance` widths (at most 12 times,
+/// each leaves a quarter). Collective.
 std::vector<double> surfaceLevel(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& alpha,
-    const std::vector<double>& width, const DualCells* cells, const Cover* cover);
+    const std::vector<double>& width, const DualCells* cells, const Cover* cover, double tolerance);
 
 } // namespace flotsam
