@@ -2,26 +2,17 @@
 #include "equations/fluid.hpp"
 
 #include "equations/gravity.hpp"
+#include "equations/initialProfile.hpp"
 #include "equations/materials.hpp"
 #include "equations/solidExtension.hpp"
-#include "equations/initialProfile.hpp"
 #include "equations/surfaceLevel.hpp"
 #include "geometry/meanCover.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace flotsam
 {
-
-namespace
-{
-
-constexpr double gasOnly = 0.01;    // largest alpha of an element that counts as gas for the Courant number
-constexpr double gasShare = 0.25;   // of its Courant number: the implicit scheme is stable, and the gas is not what is asked for
-
-} // namespace
 
 Fluid::Fluid(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& fluid, const NumericsControls& controls,
     const std::vector<BoundaryPatch>& patches)
@@ -139,15 +130,8 @@ TransportReport Fluid::beginStep(double dt)
 double Fluid::levelTolerance() const
 {
     constexpr double share = 1e-3, least = 1e-10, most = 1e-3;
-    double way = 0;
-    for (int i = 0; i < mesh_.nOwned; ++i)
-    {
-        if (state_.alpha[i] < gasOnly) continue;
-        double square = 0;
-        for (int d = 0; d < mesh_.dim; ++d) square += state_.u[std::size_t(i)*mesh_.dim + d]*state_.u[std::size_t(i)*mesh_.dim + d];
-        way = std::max(way, std::sqrt(square)*state_.dt/transport_.width()[i]);
-    }
-    return std::clamp(share*halo_.max(way), least, most);
+    const double way = longestWay(mesh_, halo_, transport_.width(), state_);
+    return std::clamp(share*way, least, most);
 }
 
 /// Inside solids the phase field continues the free surface outside: the nearest plane's profile, so that a plane
@@ -330,85 +314,6 @@ bool Fluid::isFinite() const
     for (double v : x_) isBad = isBad || !std::isfinite(v);
     for (double v : q_) isBad = isBad || !std::isfinite(v);
     return !halo_.any(isBad);
-}
-
-double Fluid::courantRate() const
-{
-    const int dim = mesh_.dim, n = dim + 1;
-    double largest = 0;
-    for (int e = 0; e < mesh_.nInnerElements; ++e)
-    {
-        if (cover_ && cover_->state[e] == ElementState::Solid) continue;
-        double u[3] = {0, 0, 0}, speed = 0, alpha = 0;
-        for (int a = 0; a < n; ++a) alpha = std::max(alpha, state_.alpha[mesh_.elements[std::size_t(e)*n + a]]);
-        for (int a = 0; a < n; ++a)
-            for (int d = 0; d < dim; ++d) u[d] += state_.u[std::size_t(mesh_.elements[std::size_t(e)*n + a])*dim + d]/n;
-        for (int d = 0; d < dim; ++d) speed += u[d]*u[d];
-        largest = std::max(largest, std::sqrt(speed)/mesh_.h[e]*(alpha < gasOnly ? gasShare : 1));
-    }
-    return halo_.max(largest);
-}
-
-std::string Fluid::describeFastest() const
-{
-    const int dim = mesh_.dim;
-    double best = -1;
-    int at = -1;
-    for (int i = 0; i < mesh_.nOwned; ++i)
-    {
-        double speed = 0;
-        for (int d = 0; d < dim; ++d) speed += state_.u[std::size_t(i)*dim + d]*state_.u[std::size_t(i)*dim + d];
-        if (speed > best) { best = speed; at = i; }
-    }
-    const double fastest = halo_.max(best);
-    double where[4] = {0, 0, 0, 0};
-    if (best == fastest && at >= 0)
-    {
-        const std::array<double, 3> x = mesh_.spacePoint(at);
-        std::copy(x.begin(), x.end(), where);
-        where[3] = state_.alpha[at];
-    }
-    halo_.sum(where, 4);
-    std::ostringstream text;
-    text << "|u| = " << std::sqrt(fastest) << " m/s at (" << where[0] << ' ' << where[1] << ' ' << where[2] << "), alpha " << where[3];
-    return text.str();
-}
-
-double Fluid::liquidVolume() const
-{
-    const int n = mesh_.dim + 1;
-    double sum = 0;
-    for (int e = 0; e < mesh_.nElements; ++e)
-    {
-        if (!mesh_.isOwnedElement[e]) continue;
-        const ElementState state = cover_ ? cover_->state[e] : ElementState::Fluid;
-        if (state == ElementState::Solid) continue;
-        const CutElement* cut = state == ElementState::Cut ? &cover_->cuts[cover_->cutIndex[e]] : nullptr;
-        for (int a = 0; a < n; ++a)
-            sum += (cut ? cut->first[a] : mesh_.volume[e]/n)*state_.alpha[mesh_.elements[std::size_t(e)*n + a]];
-    }
-    return mesh_.thickness*halo_.sum(sum);
-}
-
-std::vector<double> Fluid::wetFractions() const
-{
-    const std::size_t n = solids_ ? solids_->size() : 0;
-    std::vector<double> sums(2*n, 0.0);
-    for (std::size_t f = 0; cover_ && f < cover_->facets.size(); ++f)
-    {
-        const CutFacet& facet = cover_->facets[f];
-        if (!mesh_.isOwnedElement[facet.element]) continue;
-        double alpha = 0;
-        for (int q = 0; q < facet.nPoints; ++q)
-            for (int a = 0; a <= mesh_.dim; ++a)
-                alpha += facet.weight[q]*facet.shape[q][a]*state_.alpha[mesh_.elements[std::size_t(facet.element)*(mesh_.dim + 1) + a]];
-        sums[2*facet.solid] += alpha;
-        sums[2*facet.solid + 1] += facet.area;
-    }
-    if (n) halo_.sum(sums.data(), int(2*n));
-    std::vector<double> result(n, 0.0);
-    for (std::size_t s = 0; s < n; ++s) result[s] = sums[2*s + 1] > 0 ? sums[2*s]/sums[2*s + 1] : 0;
-    return result;
 }
 
 } // namespace flotsam

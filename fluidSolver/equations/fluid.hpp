@@ -11,6 +11,7 @@
 #include "algebra/flowLinearSolver.hpp"
 #include "equations/dualCellTransport.hpp"
 #include "equations/flowEquation.hpp"
+#include "equations/flowMeasures.hpp"
 #include "equations/gasRegion.hpp"
 #include "equations/interfacePlanes.hpp"
 #include "equations/phaseFieldSupg.hpp"
@@ -52,16 +53,19 @@ public:
     /// Velocity of every solid in the last solve (free: solved; others: as given).
     std::vector<Motion> solidMotions() const;
     /// Liquid share of every solid's surface, 0..1. Collective.
-    std::vector<double> wetFractions() const;
+    std::vector<double> wetFractions() const
+    {
+        return flotsam::wetFractions(mesh_, halo_, cover_, solids_ ? solids_->size() : 0, state_.alpha);
+    }
 
     /// Largest |u|/h over the active elements, a quarter of it in pure gas [1/s]. Collective.
-    double courantRate() const;
+    double courantRate() const { return flotsam::courantRate(mesh_, halo_, cover_, state_); }
 
     /// The fastest place, for messages: "|u| = 12 m/s at (0.1 0.2 0), alpha 0.01". Collective.
-    std::string describeFastest() const;
+    std::string describeFastest() const { return flotsam::describeFastest(mesh_, halo_, state_); }
 
     /// Liquid volume int alpha over the fluid part [m^3]. Collective.
-    double liquidVolume() const;
+    double liquidVolume() const { return flotsam::liquidVolume(mesh_, halo_, cover_, state_.alpha); }
 
     const FlowState& state() const { return state_; }
     FlowState& state() { return state_; }

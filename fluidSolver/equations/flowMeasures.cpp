@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "equations/flowMeasures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace flotsam
+{
+
+namespace
+{
+
+constexpr double gasShare = 0.25;   // of its Courant number that gas counts with
+
+double squaredSpeed(const SimplexMesh& mesh, const FlowState& state, int node)
+{
+    const double* u = &state.u[std::size_t(node)*mesh.dim];
+    double square = 0;
+    for (int d = 0; d < mesh.dim; ++d) square += u[d]*u[d];
+    return square;
+}
+
+} // namespace
+
+double courantRate(const SimplexMesh& mesh, const Halo& halo, const Cover* cover, const FlowState& state)
+{
+    const int dim = mesh.dim, n = dim + 1;
+    double largest = 0;
+    for (int e = 0; e < mesh.nInnerElements; ++e)
+    {
+        if (cover && cover->state[e] == ElementState::Solid) continue;
+        double u[3] = {0, 0, 0}, speed = 0, alpha = 0;
+        for (int a = 0; a < n; ++a) alpha = std::max(alpha, state.alpha[mesh.elements[std::size_t(e)*n + a]]);
+        for (int a = 0; a < n; ++a)
+            for (int d = 0; d < dim; ++d) u[d] += state.u[std::size_t(mesh.elements[std::size_t(e)*n + a])*dim + d]/n;
+        for (int d = 0; d < dim; ++d) speed += u[d]*u[d];
+        largest = std::max(largest, std::sqrt(speed)/mesh.h[e]*(alpha < gasOnly ? gasShare : 1));
+    }
+    return halo.max(largest);
+}
+
+double longestWay(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& width, const FlowState& state)
+{
+    double way = 0;
+    for (int i = 0; i < mesh.nOwned; ++i)
+        if (state.alpha[i] >= gasOnly) way = std::max(way, std::sqrt(squaredSpeed(mesh, state, i))*state.dt/width[i]);
+    return halo.max(way);
+}
+
+std::string describeFastest(const SimplexMesh& mesh, const Halo& halo, const FlowState& state)
+{
+    double best = -1;
+    int at = -1;
+    for (int i = 0; i < mesh.nOwned; ++i)
+    {
+        const double speed = squaredSpeed(mesh, state, i);
+        if (speed > best) { best = speed; at = i; }
+    }
+    const double fastest = halo.max(best);
+    double where[4] = {0, 0, 0, 0};
+    if (best == fastest && at >= 0)
+    {
+        const std::array<double, 3> x = mesh.spacePoint(at);
+        std::copy(x.begin(), x.end(), where);
+        where[3] = state.alpha[at];
+    }
+    halo.sum(where, 4);
+    std::ostringstream text;
+    text << "|u| = " << std::sqrt(fastest) << " m/s at (" << where[0] << ' ' << where[1] << ' ' << where[2] << "), alpha " << where[3];
+    return text.str();
+}
+
+double liquidVolume(const SimplexMesh& mesh, const Halo& halo, const Cover* cover, const std::vector<double>& alpha)
+{
+    const int n = mesh.dim + 1;
+    double sum = 0;
+    for (int e = 0; e < mesh.nElements; ++e)
+    {
+        if (!mesh.isOwnedElement[e]) continue;
+        const ElementState state = cover ? cover->state[e] : ElementState::Fluid;
+        if (state == ElementState::Solid) continue;
+        const CutElement* cut = state == ElementState::Cut ? &cover->cuts[cover->cutIndex[e]] : nullptr;
+        for (int a = 0; a < n; ++a)
+            sum += (cut ? cut->first[a] : mesh.volume[e]/n)*alpha[mesh.elements[std::size_t(e)*n + a]];
+    }
+    return mesh.thickness*halo.sum(sum);
+}
+
+std::vector<double> wetFractions(const SimplexMesh& mesh, const Halo& halo, const Cover* cover, std::size_t nSolids,
+    const std::vector<double>& alpha)
+{
+    std::vector<double> sums(2*nSolids, 0.0);
+    for (std::size_t f = 0; cover && f < cover->facets.size(); ++f)
+    {
+        const CutFacet& facet = cover->facets[f];
+        if (!mesh.isOwnedElement[facet.element]) continue;
+        double wet = 0;
+        for (int q = 0; q < facet.nPoints; ++q)
+            for (int a = 0; a <= mesh.dim; ++a)
+                wet += facet.weight[q]*facet.shape[q][a]*alpha[mesh.elements[std::size_t(facet.element)*(mesh.dim + 1) + a]];
+        sums[2*facet.solid] += wet;
+        sums[2*facet.solid + 1] += facet.area;
+    }
+    if (nSolids) halo.sum(sums.data(), int(2*nSolids));
+    std::vector<double> result(nSolids, 0.0);
+    for (std::size_t s = 0; s < nSolids; ++s) result[s] = sums[2*s + 1] > 0 ? sums[2*s]/sums[2*s + 1] : 0;
+    return result;
+}
+
+} // namespace flotsam

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Figures of a flow state that steer a run or are reported. All collective; cover may be null: no solids.
+#pragma once
+
+#include "core/flowState.hpp"
+#include "core/simplexMesh.hpp"
+#include "algebra/halo.hpp"
+#include "geometry/cover.hpp"
+
+#include <string>
+#include <vector>
+
+namespace flotsam
+{
+
+constexpr double gasOnly = 0.01;    ///< largest alpha that counts as gas alone
+
+/// Largest |u|/h over the active elements [1/s]; of it a quarter in elements of gas alone: the implicit scheme is stable, and the gas is
+/// not what is asked for.
+double courantRate(const SimplexMesh& mesh, const Halo& halo, const Cover* cover, const FlowState& state);
+
+/// Largest way of a node with liquid in the last time step, in widths (one per node [m]).
+double longestWay(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& width, const FlowState& state);
+
+/// The fastest place, for messages: "|u| = 12 m/s at (0.1 0.2 0), alpha 0.01".
+std::string describeFastest(const SimplexMesh& mesh, const Halo& halo, const FlowState& state);
+
+/// int alpha over the fluid part [m^3], of a 2D mesh by its thickness.
+double liquidVolume(const SimplexMesh& mesh, const Halo& halo, const Cover* cover, const std::vector<double>& alpha);
+
+/// Liquid share of every solid's surface, 0..1; one value per solid.
+std::vector<double> wetFractions(const SimplexMesh& mesh, const Halo& halo, const Cover* cover, std::size_t nSolids,
+    const std::vector<double>& alpha);
+
+} // namespace flotsam
