@@ -46,6 +46,8 @@ BodyCoupling::BodyCoupling(const DemSetup& setup, const CouplingControls& contro
     const std::size_t n = setup.bodies.size();
     lastLoads_.resize(n);
     newContact_.resize(n);
+    contact_.resize(n);
+    smoothing_.resize(n);
     wallLoads_.resize(setup.walls.size());
     contactCounts_.assign(n, 0);
     wallContactCounts_.assign(setup.walls.size(), 0);
@@ -61,6 +63,7 @@ BodyCoupling::BodyCoupling(const DemSetup& setup, const CouplingControls& contro
     MPI_Bcast(&demTimeStep_, 1, MPI_DOUBLE, 0, comm_);
     shareResults();
     states_ = predicted_ = result_;
+    smooth_ = std::make_unique<SmoothMotion>(setup_.bodies, states_);
 }
 
 BodyCoupling::~BodyCoupling() = default;
@@ -150,11 +153,11 @@ void BodyCoupling::begin(double time, double dt)
 {
     dt_ = dt;
     iteration_.begin(dt);
-    contactBefore_ = contactLoads();
+    guessBefore_ = contactGuess();
     overlapBefore_ = largestOverlap_;
     springSpeed_ = 0;
     for (int b = 0; b < nBodies(); ++b)
-        springSpeed_ = std::max(springSpeed_, std::sqrt(overlapBefore_*contactBefore_[b].force.norm()/setup_.bodies[b].mass));
+        springSpeed_ = std::max(springSpeed_, std::sqrt(overlapBefore_*contact_[b].force.norm()/setup_.bodies[b].mass));
     std::vector<char> held(isHeld_);
     for (int b = 0; b < nBodies(); ++b) held[b] = time < setup_.bodies[b].releaseTime - 1e-9 || hasLeft(b);
     isAtStart_ = true;
@@ -167,12 +170,12 @@ void BodyCoupling::begin(double time, double dt)
     for (int b = 0; b < nBodies(); ++b) predicted_[b] = isHeld_[b] ? states_[b] : drifted(b);
 }
 
-/// The body after the step if the last step's net force went on. Its pose is what the fluid is cut with.
+/// The body after the step if its smooth motion's last acceleration went on. Its pose is what the fluid is cut with.
 BodyState BodyCoupling::drifted(int b) const
 {
-    BodyState s = states_[b];
+    BodyState s = smooth_->states()[b];
     const BodyDefinition& body = setup_.bodies[b];
-    const Vec3 acceleration = (lastLoads_[b].force + contactLoads()[b].force)/body.mass;
+    const Vec3 acceleration = (lastLoads_[b].force + contactGuess()[b].force)/body.mass;
     s.pose.position += dt_*(s.motion.velocity + 0.5*dt_*acceleration);
     const Vec3 turn = dt_*s.motion.angularVelocity;
     if (turn.norm() > 0) s.pose.orientation = (Eigen::Quaterniond(Eigen::AngleAxisd(turn.norm(), turn.normalized()))*s.pose.orientation).normalized();
@@ -206,28 +209,40 @@ bool BodyCoupling::correct(const std::vector<Load>& loads)
     loads_ = loads;
     if (!isAtStart_) guarded([&] { engine_->restore(saved_); });
     isAtStart_ = false;
-    runEngine(dt_, inertia_.engineLoads(loads_, contactLoads()));
-    return iteration_.take(newContact_, inertia_);
+    std::vector<Load> contact(contactGuess());
+    for (std::size_t b = 0; b < contact.size(); ++b) contact[b] = {contact[b].force - smoothing_[b].force, contact[b].moment - smoothing_[b].moment};
+    runEngine(dt_, inertia_.engineLoads(loads_, contact));
+    smooth_->find(states_, result_, newContact_, dt_);
+    const std::vector<Load>& drive = smooth_->drive();
+    for (std::size_t b = 0; b < drive.size(); ++b) smoothing_[b] = {drive[b].force - newContact_[b].force, drive[b].moment - newContact_[b].moment};
+    return iteration_.take(drive, inertia_);
 }
 
 void BodyCoupling::accept()
 {
+    std::vector<Load> guess(smooth_->drive());
     for (int b = 0; b < nBodies(); ++b)
     {
         lastLoads_[b] = isHeld_[b] ? Load() : loads_[b]; // what holds a body takes its loads
         // what the body has felt, where the contact it was solved with is not quite the one found
         if (inertia_.factors()[b].mass > 1)
             lastLoads_[b].force = setup_.bodies[b].mass/dt_*(result_[b].motion.velocity - states_[b].motion.velocity) - newContact_[b].force;
-        if (newContact_[b].force.isZero(0) && newContact_[b].moment.isZero(0)) inertia_.drop(b);
+        if (!newContact_[b].force.isZero(0) || !newContact_[b].moment.isZero(0)) continue;
+        inertia_.drop(b);
+        guess[b] = smoothing_[b] = Load();
     }
     states_ = result_;
-    iteration_.setGuess(newContact_);
+    contact_ = newContact_;
+    smooth_->accept();
+    iteration_.setGuess(guess);
 }
 
 void BodyCoupling::reject()
 {
     guarded([&] { engine_->restore(saved_); });
-    iteration_.setGuess(contactBefore_); // that of the failed step would spoil the next prediction
+    iteration_.setGuess(guessBefore_); // that of the failed step would spoil the next prediction
+    for (std::size_t b = 0; b < smoothing_.size(); ++b)
+        smoothing_[b] = {guessBefore_[b].force - contact_[b].force, guessBefore_[b].moment - contact_[b].moment};
     largestOverlap_ = overlapBefore_;
 }
 
@@ -239,26 +254,31 @@ std::vector<double> BodyCoupling::save() const
     MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG, 0, comm_);
     data.resize(size);
     MPI_Bcast(data.data(), int(size), MPI_DOUBLE, 0, comm_);
-    for (const auto* loads : {&lastLoads_, &contactLoads()})
+    for (const auto* loads : {&lastLoads_, &contact_, &contactGuess()})
         for (const Load& l : *loads)
             for (const Vec3* v : {&l.force, &l.moment}) data.insert(data.end(), v->data(), v->data() + 3);
     for (const InertiaFactor& f : inertia_.factors()) data.insert(data.end(), {f.mass, f.turn});
+    const std::vector<double> smooth = smooth_->save();
+    data.insert(data.end(), smooth.begin(), smooth.end());
     data.insert(data.end(), isHeld_.begin(), isHeld_.end());
     return data;
 }
 
 void BodyCoupling::restore(const std::vector<double>& data)
 {
-    const std::size_t tail = 15*setup_.bodies.size();
+    const std::size_t tail = (3*6 + 2 + SmoothMotion::perBody + 1)*setup_.bodies.size();
     if (data.size() < tail) throw std::runtime_error("restart: the stored state of the bodies is too short for this case");
     const double* at = data.data() + data.size() - tail;
-    std::vector<Load> contact(lastLoads_.size());
-    for (auto* loads : {&lastLoads_, &contact})
+    std::vector<Load> guess(lastLoads_.size());
+    for (auto* loads : {&lastLoads_, &contact_, &guess})
         for (Load& l : *loads) { get(at, l.force); get(at, l.moment); }
-    iteration_.setGuess(contact);
+    iteration_.setGuess(guess);
+    for (std::size_t b = 0; b < guess.size(); ++b) smoothing_[b] = {guess[b].force - contact_[b].force, guess[b].moment - contact_[b].moment};
     std::vector<InertiaFactor> factors(isHeld_.size());
     for (InertiaFactor& f : factors) { f.mass = *at++; f.turn = *at++; }
     inertia_.setFactors(factors);
+    const double* smooth = at;
+    at += SmoothMotion::perBody*isHeld_.size();
     isHeld_.assign(at, at + isHeld_.size());
     guarded([&]
     {
@@ -269,6 +289,7 @@ void BodyCoupling::restore(const std::vector<double>& data)
     });
     shareResults();
     states_ = predicted_ = result_;
+    smooth_->restore(states_, smooth);
 }
 
 } // namespace flotsam

@@ -2,20 +2,21 @@
 /// Predict - solve - correct between contact (microseconds, LIGGGHTS) and flow (milliseconds, one linear system).
 ///
 ///   begin(dt)      DEM state saved; poses predicted from the last velocities and net forces, contact loads from the last step
-///   [fluid solved with contactLoads() on the bodies' rows]
+///   [fluid solved with contactGuess() on the bodies' rows]
 ///   correct(load)  DEM restored and run with the new load; true when the contact loads it gives are the ones the fluid was
-///                  solved with. Otherwise contactLoads() holds the next guess: solve again
+///                  solved with. Otherwise contactGuess() holds the next guess: solve again
 ///   accept() or reject()
 ///
 /// Without contact before and after the step the first correct() returns true: exactly one solve a step. A prediction by DEM
 /// sub-steps would cost one more DEM run in every step.
-/// The repeats: contactIteration.hpp; light bodies: addedInertia.hpp; steps that must not be accepted: motionCheck.hpp.
+/// The repeats: contactIteration.hpp; velocities of touched bodies: smoothMotion.hpp; light bodies: addedInertia.hpp; steps that must not be accepted: motionCheck.hpp.
 /// Bodies that have left the mesh by its diagonal are held where they are. Rank 0 owns the engine; every rank holds the same states.
 #pragma once
 
 #include "demCoupling/coupling/addedInertia.hpp"
 #include "demCoupling/coupling/contactIteration.hpp"
 #include "demCoupling/coupling/motionCheck.hpp"
+#include "demCoupling/coupling/smoothMotion.hpp"
 #include "demCoupling/liggghts/liggghtsEngine.hpp"
 
 #include <mpi.h>
@@ -48,7 +49,9 @@ public:
 
     const std::vector<BodyState>& states() const { return states_; }        ///< at t^n (after accept(): the new time)
     const std::vector<BodyState>& predicted() const { return predicted_; }  ///< at t^(n+1), pose to cut with
-    const std::vector<Load>& contactLoads() const { return iteration_.guess(); } ///< to solve the fluid with; after accept(): what acted
+    const std::vector<BodyState>& smoothStates() const { return smooth_->states(); } ///< at t^n, as the fluid is given them: smoothMotion.hpp
+    const std::vector<Load>& contactGuess() const { return iteration_.guess(); } ///< to solve the fluid with, from smoothStates()
+    const std::vector<Load>& contactLoads() const { return contact_; } ///< mean over the last accepted step
     const std::vector<Load>& lastLoads() const { return lastLoads_; }       ///< fluid and weight, mean over the last accepted step; held bodies: 0
     const std::vector<Load>& wallLoads() const { return wallLoads_; }       ///< time means of the last DEM run, moments about the origin of space
     const std::vector<int>& contactCounts() const { return contactCounts_; }
@@ -79,12 +82,14 @@ private:
     DemState saved_;                            // rank 0
     bool isAtStart_ = false;                    // the engine is in the state saved_: no restore, which rebuilds the neighbour lists
     std::vector<BodyState> states_, predicted_, result_;
-    std::vector<Load> lastLoads_, loads_, newContact_, contactBefore_, wallLoads_;
+    std::vector<Load> lastLoads_, loads_, newContact_, contact_, wallLoads_;
+    std::vector<Load> smoothing_, guessBefore_; // smoothing_: of the guess, what is not contact
     std::vector<int> contactCounts_, wallContactCounts_;
     std::vector<char> isHeld_;
     ContactIteration iteration_;
     AddedInertia inertia_;
     MotionCheck check_;
+    std::unique_ptr<SmoothMotion> smooth_;
     double dt_ = 0, largestOverlap_ = 0, overlapBefore_ = 0, demTimeStep_ = 0;
     double springSpeed_ = 0;    // what the springs can add to a body's speed in this step [m/s]
 };

@@ -60,9 +60,9 @@ std::vector<FreeBody> Scene::freeBodies(const BodyCoupling& coupling, double new
         FreeBody body;
         body.mass = definition.mass;
         body.inertia = R*definition.principalInertia.asDiagonal()*R.transpose();
-        body.velocity = coupling.states()[b].motion.velocity;
-        body.angularMomentum = coupling.states()[b].angularMomentum;
-        const Load &last = coupling.lastLoads()[b], &contact = coupling.contactLoads()[b];
+        body.velocity = coupling.smoothStates()[b].motion.velocity;
+        body.angularMomentum = coupling.smoothStates()[b].angularMomentum;
+        const Load &last = coupling.lastLoads()[b], &contact = coupling.contactGuess()[b];
         body.newLoadShare = newLoadShare;
         body.force = newLoadShare*definition.mass*gravity_ + (1 - newLoadShare)*last.force + contact.force;
         body.moment = (1 - newLoadShare)*last.moment + contact.moment;

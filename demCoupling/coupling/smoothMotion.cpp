@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "demCoupling/coupling/smoothMotion.hpp"
+
+namespace flotsam
+{
+
+namespace
+{
+
+Motion meanMotion(const BodyState& before, const BodyState& after, double dt)
+{
+    const Eigen::AngleAxisd turn(after.pose.orientation*before.pose.orientation.conjugate());
+    return {(after.pose.position - before.pose.position)/dt, turn.axis()*(turn.angle()/dt)};
+}
+
+Vec3 inertiaTimes(const BodyDefinition& body, const BodyState& state, const Vec3& angularVelocity)
+{
+    const Eigen::Quaterniond& q = state.pose.orientation;
+    return q*(body.principalInertia.cwiseProduct(q.conjugate()*angularVelocity));
+}
+
+} // namespace
+
+SmoothMotion::SmoothMotion(const std::vector<BodyDefinition>& bodies, const std::vector<BodyState>& states)
+:   bodies_(bodies), states_(states), found_(states), last_(states.size()), foundStep_(states.size()), drive_(states.size())
+{
+    for (std::size_t b = 0; b < states.size(); ++b) last_[b].mean = states[b].motion;
+}
+
+void SmoothMotion::find(const std::vector<BodyState>& before, const std::vector<BodyState>& after, const std::vector<Load>& contact, double dt)
+{
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+    {
+        const Motion mean = meanMotion(before[b], after[b], dt);
+        foundStep_[b] = {mean, dt};
+        found_[b] = after[b];
+        drive_[b] = contact[b];
+        if (!contact[b].force.isZero(0) || !contact[b].moment.isZero(0))
+        {
+            const double share = dt/(dt + last_[b].dt);
+            Motion& smooth = found_[b].motion;
+            smooth.velocity = mean.velocity + share*(mean.velocity - last_[b].mean.velocity);
+            smooth.angularVelocity = mean.angularVelocity + share*(mean.angularVelocity - last_[b].mean.angularVelocity);
+            found_[b].angularMomentum += inertiaTimes(bodies_[b], after[b], smooth.angularVelocity - after[b].motion.angularVelocity);
+        }
+        const Vec3 before_ = states_[b].motion.velocity - before[b].motion.velocity; // zero, to the last bit, where nothing touched
+        drive_[b].force += bodies_[b].mass/dt*(found_[b].motion.velocity - after[b].motion.velocity - before_);
+        drive_[b].moment += (found_[b].angularMomentum - after[b].angularMomentum - (states_[b].angularMomentum - before[b].angularMomentum))/dt;
+    }
+}
+
+void SmoothMotion::accept()
+{
+    states_ = found_;
+    last_ = foundStep_;
+}
+
+std::vector<double> SmoothMotion::save() const
+{
+    std::vector<double> data;
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+    {
+        for (const Vec3& v : {states_[b].motion.velocity, states_[b].motion.angularVelocity, last_[b].mean.velocity, last_[b].mean.angularVelocity})
+            data.insert(data.end(), v.data(), v.data() + 3);
+        data.push_back(last_[b].dt);
+    }
+    return data;
+}
+
+void SmoothMotion::restore(const std::vector<BodyState>& engine, const double* data)
+{
+    states_ = engine;
+    for (std::size_t b = 0; b < bodies_.size(); ++b, data += perBody)
+    {
+        auto at = [data](int k) { return Vec3(data[3*k], data[3*k + 1], data[3*k + 2]); };
+        const Vec3 change = at(1) - engine[b].motion.angularVelocity;
+        states_[b].motion = {at(0), at(1)};
+        if (!change.isZero(0)) states_[b].angularMomentum += inertiaTimes(bodies_[b], engine[b], change);
+        last_[b] = {{at(2), at(3)}, data[12]};
+    }
+    found_ = states_;
+    foundStep_ = last_;
+}
+
+} // namespace flotsam
