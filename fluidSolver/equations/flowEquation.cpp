@@ -94,7 +94,6 @@ void FlowEquation::assembleElements()
     constexpr int N = D + 1, B = D + 1;
     ElementData<D> data;
     defect_.assign(mesh_.nOwned, 0.0);
-    mass_.assign(mesh_.nOwned, 0.0);
     carriesMass_.assign(mesh_.nOwned, 0);
     std::vector<char> isStarted(mesh_.nOwned, 0);
     for (int e = 0; e < mesh_.nInnerElements; ++e)
@@ -111,7 +110,6 @@ void FlowEquation::assembleElements()
             addSource(data, a, history, &system_.rhs[std::size_t(i)*B]);
             system_.dualVolume[i] += data.first[a];
             defect_[i] += massDefect(data, a);
-            mass_[i] += (data.isVarying ? data.nodalInertia[a] : data.inertia)*data.first[a];
             carriesMass_[i] |= data.isVarying;
             system_.pressureMass[i] += data.first[a]/(data.mu + data.tauCont);
         }
@@ -125,21 +123,39 @@ void FlowEquation::assembleElements()
 /// Takes from the rows of the nodes around varying densities what inertia and convection leave of a uniform velocity: the rest of
 /// the mass balance (time levels, cut elements, corrections of the phase field). After assembleWalls(): what a moving surface sweeps belongs to the
 /// balance. Open boundaries have their own part of it.
+/// Mass that vanishes takes its node's velocity along, mass that appears has that of the nodes around, by their densities: a uniform velocity meets no force
+/// either way, and no energy comes from it. With the node's own velocity it drives gas beside water and moving bodies by a constant factor a step.
 template<int D>
 void FlowEquation::removeMassDefect()
 {
     for (int i = 0; i < mesh_.nOwned; ++i)
     {
         if (!carriesMass_[i] || isOpen_[i] || (step_.gas && step_.gas->isEdge()[i])) continue;
-        double* m = &system_.matrix.velocity[std::size_t(graph_.diagonal[i])*D*D];
-        const double removed = std::min(defect_[i], 0.5*mass_[i]);
-        for (int d = 0; d < D; ++d)
-        {
-            m[d*D + d] -= removed;
-            // more would make the mass negative: the rest resists a change of velocity instead of the velocity itself
-            system_.rhs[std::size_t(i)*(D + 1) + d] += (defect_[i] - removed)*step_.state->u[std::size_t(i)*D + d];
-        }
+        if (defect_[i] > 0) coupleToNeighbours<D>(i, -defect_[i]);
+        else addVelocity<D>(graph_.diagonal[i], -defect_[i]);
     }
+}
+
+/// value times the velocity of one entry of the matrix.
+template<int D>
+void FlowEquation::addVelocity(int slot, double value)
+{
+    for (int d = 0; d < D; ++d) system_.matrix.velocity[std::size_t(slot)*D*D + d*(D + 1)] += value;
+}
+
+/// value times the mean velocity of the active neighbours of node i, weighted with their densities.
+template<int D>
+void FlowEquation::coupleToNeighbours(int i, double value)
+{
+    const auto weight = [&](int k)
+    {
+        const int j = graph_.column[k];
+        return j != i && system_.isActive[j] ? nodal_.rho[j] : 0;
+    };
+    double sum = 0;
+    for (int k = graph_.rowStart[i]; k < graph_.rowStart[i + 1]; ++k) sum += weight(k);
+    if (sum <= 0) return;
+    for (int k = graph_.rowStart[i]; k < graph_.rowStart[i + 1]; ++k) addVelocity<D>(k, value*weight(k)/sum);
 }
 
 template<int D>

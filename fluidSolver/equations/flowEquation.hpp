@@ -59,6 +59,8 @@ private:
     void startRow(int i, std::vector<char>& isStarted);
     template<int D> void assembleElements();
     template<int D> void removeMassDefect();
+    template<int D> void addVelocity(int slot, double value);
+    template<int D> void coupleToNeighbours(int i, double value);
     template<int D> void assembleWalls();
     template<int D> void assembleGhosts();
     template<int D> void assembleOpenBoundaries();
@@ -85,7 +87,7 @@ private:
     FlowStepData step_;
     FlowSystem system_;
     NodalData nodal_;
-    std::vector<double> defect_, mass_;         // owned nodes: see massDefect(); row sum of the inertia
+    std::vector<double> defect_;                // owned nodes: see massDefect()
     std::vector<char> carriesMass_, isOpen_;    // nodes of varying elements; nodes on open patches
     std::vector<char> isPatchPressureFixed_;    // nNodes: by a patch
     double gasLevel_ = 0;                       // of the gas at rest's pressure [Pa]
