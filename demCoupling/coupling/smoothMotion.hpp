@@ -5,7 +5,7 @@
 /// step's rate, and with the velocity at the step's end the water's inertia feeds the vibration. One degree of freedom, sticking contact without
 /// dashpot, added mass a times the mass, converged contact: a step multiplies it by up to 1.8 (a = 1), 3 (a = 2), at any step longer
 /// than half the spring's period. Where a body was touched the fluid is therefore given what the mean velocities of the last two steps
-/// extrapolate to: no growth for any a, spring and dashpot (docs/contact.md, benchmarks/parameters/contactStability.py). Untouched bodies: the velocity itself.
+/// extrapolate to: no growth for any a, spring and dashpot (docs/contact.md). Untouched bodies: the velocity itself.
 #pragma once
 
 #include "demCoupling/core/rigidBody.hpp"

@@ -24,7 +24,7 @@ struct NumericsControls
     // time
     int timeOrder = 2;              ///< 1: BDF1, 2: BDF2
     // stabilisation (paper eq 5)
-    double tauFactor = 1;           ///< tau of SUPG and PSPG over Tezduyar's where inertia counts
+    double tauFactor = 0.25;        ///< tau of SUPG and PSPG over Tezduyar's where inertia counts
     double tauContFactor = 1;       ///< multiplies tau_cont
     bool tauContWithTimeStep = true; ///< tau_cont = rho h^2/(12 tau) with the time step inside tau (twophase), else rho(nu + |a|h/2)
     // embedded boundary

@@ -29,9 +29,10 @@ void checkAll(const ErrorTable& table)
 
 TEST_CASE("Stokes, regular mesh") { checkAll(steadyErrors(2, "Stokes 2D, regular", waves(2), 1e-3, 1, {12, 24, 48}, 0)); }
 TEST_CASE("Stokes, moved nodes") { checkVelocity(steadyErrors(2, "Stokes 2D, moved nodes", waves(2), 1e-3, 1, {12, 24, 48}, moved)); }
+/// Meshes on which viscosity rules tau: between its branches the velocity's order is 1.83 (its errors are smaller than with one branch).
 TEST_CASE("Navier-Stokes, mu 0.01")
 {
-    checkAll(steadyErrors(2, "Navier-Stokes 2D, mu 0.01, moved nodes", waves(2), 1, 1e-2, {20, 40, 80}, moved));
+    checkAll(steadyErrors(2, "Navier-Stokes 2D, mu 0.01, moved nodes", waves(2), 1, 1e-2, {40, 80, 160}, moved));
 }
 TEST_CASE("Navier-Stokes, mu 1e-4")
 {
