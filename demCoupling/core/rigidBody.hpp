@@ -66,7 +66,11 @@ struct Load
 {
     Vec3 force = Vec3::Zero();
     Vec3 moment = Vec3::Zero();
+
+    bool isZero() const { return force.isZero(0) && moment.isZero(0); }
 };
+
+inline Load operator-(const Load& a, const Load& b) { return {a.force - b.force, a.moment - b.moment}; }
 
 /// Factors, powers of two, of a body's mass and of its moments of inertia.
 struct InertiaFactor

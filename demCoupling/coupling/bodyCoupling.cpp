@@ -10,6 +10,13 @@ namespace flotsam
 namespace
 {
 
+std::vector<Load> difference(const std::vector<Load>& a, const std::vector<Load>& b)
+{
+    std::vector<Load> result(a.size());
+    for (std::size_t k = 0; k < a.size(); ++k) result[k] = a[k] - b[k];
+    return result;
+}
+
 constexpr int perBody = 7 + 6 + 3 + 6 + 1; // pose, motion, angular momentum, contact load, contact count
 constexpr int perWall = 6 + 1;              // contact load, contact count
 
@@ -153,21 +160,33 @@ void BodyCoupling::begin(double time, double dt)
 {
     dt_ = dt;
     iteration_.begin(dt);
-    guessBefore_ = contactGuess();
-    overlapBefore_ = largestOverlap_;
+    guessAtStart_ = contactGuess();
+    factorsAtStart_ = inertia_.factors();
+    overlapAtStart_ = largestOverlap_;
     springSpeed_ = 0;
     for (int b = 0; b < nBodies(); ++b)
-        springSpeed_ = std::max(springSpeed_, std::sqrt(overlapBefore_*contact_[b].force.norm()/setup_.bodies[b].mass));
+        springSpeed_ = std::max(springSpeed_, std::sqrt(overlapAtStart_*contact_[b].force.norm()/setup_.bodies[b].mass));
     std::vector<char> held(isHeld_);
     for (int b = 0; b < nBodies(); ++b) held[b] = time < setup_.bodies[b].releaseTime - 1e-9 || hasLeft(b);
     isAtStart_ = true;
-    isHeld_ = held;
+    hold(held);
+    guarded([&] { saved_ = engine_->save(); });
+    for (int b = 0; b < nBodies(); ++b) predicted_[b] = isHeld_[b] ? states_[b] : drifted(b);
+}
+
+/// A body that is let go has its velocity at once, for the fluid too.
+void BodyCoupling::hold(const std::vector<char>& isHeld)
+{
+    if (isHeld == isHeld_) return;
     guarded([&]
     {
-        engine_->setHeld(isHeld_);
-        saved_ = engine_->save();
+        engine_->setHeld(isHeld);
+        result_ = engine_->states();
     });
-    for (int b = 0; b < nBodies(); ++b) predicted_[b] = isHeld_[b] ? states_[b] : drifted(b);
+    shareResults();
+    for (int b = 0; b < nBodies(); ++b)
+        if (isHeld[b] != isHeld_[b]) smooth_->reset(b, states_[b] = result_[b]);
+    isHeld_ = isHeld;
 }
 
 /// The body after the step if its smooth motion's last acceleration went on. Its pose is what the fluid is cut with.
@@ -195,27 +214,22 @@ std::string BodyCoupling::brokenContact(double fluidSpeed) const
     const bool hasConverged = mismatch() <= controls_.tolerance;
     const std::string thrown = hasConverged ? "" : check_.thrownBody(states_, result_, newContact_, fluidSpeed, slack);
     if (!thrown.empty()) return "contact throws body '" + thrown + "' faster than anything there is";
-    return check_.passage(states_, result_);
+    return check_.passage(states_, result_, newContact_);
 }
 
 bool BodyCoupling::correct(const std::vector<Load>& loads)
 {
     if (repeats() > 0)
     {
-        std::vector<Load> change(loads);
-        for (std::size_t b = 0; b < loads.size(); ++b) change[b] = {loads[b].force - loads_[b].force, loads[b].moment - loads_[b].moment};
-        if (inertia_.raise(iteration_.lastChange(), change)) iteration_.forget();
+        if (inertia_.raise(iteration_.lastChange(), difference(loads, loads_))) iteration_.forget();
     }
     loads_ = loads;
     if (!isAtStart_) guarded([&] { engine_->restore(saved_); });
     isAtStart_ = false;
-    std::vector<Load> contact(contactGuess());
-    for (std::size_t b = 0; b < contact.size(); ++b) contact[b] = {contact[b].force - smoothing_[b].force, contact[b].moment - smoothing_[b].moment};
-    runEngine(dt_, inertia_.engineLoads(loads_, contact));
+    runEngine(dt_, inertia_.engineLoads(loads_, difference(contactGuess(), smoothing_)));
     smooth_->find(states_, result_, newContact_, dt_);
-    const std::vector<Load>& drive = smooth_->drive();
-    for (std::size_t b = 0; b < drive.size(); ++b) smoothing_[b] = {drive[b].force - newContact_[b].force, drive[b].moment - newContact_[b].moment};
-    return iteration_.take(drive, inertia_);
+    smoothing_ = difference(smooth_->drive(), newContact_);
+    return iteration_.take(smooth_->drive(), inertia_);
 }
 
 void BodyCoupling::accept()
@@ -225,9 +239,11 @@ void BodyCoupling::accept()
     {
         lastLoads_[b] = isHeld_[b] ? Load() : loads_[b]; // what holds a body takes its loads
         // what the body has felt, where the contact it was solved with is not quite the one found
-        if (inertia_.factors()[b].mass > 1)
+        const InertiaFactor s = inertia_.factors()[b];
+        if (s.mass > 1 && !isHeld_[b])
             lastLoads_[b].force = setup_.bodies[b].mass/dt_*(result_[b].motion.velocity - states_[b].motion.velocity) - newContact_[b].force;
-        if (!newContact_[b].force.isZero(0) || !newContact_[b].moment.isZero(0)) continue;
+        if (s.turn > 1 && !isHeld_[b]) lastLoads_[b].moment = (result_[b].angularMomentum - states_[b].angularMomentum)/dt_ - newContact_[b].moment;
+        if (!newContact_[b].isZero()) continue;
         inertia_.drop(b);
         guess[b] = smoothing_[b] = Load();
     }
@@ -240,10 +256,10 @@ void BodyCoupling::accept()
 void BodyCoupling::reject()
 {
     guarded([&] { engine_->restore(saved_); });
-    iteration_.setGuess(guessBefore_); // that of the failed step would spoil the next prediction
-    for (std::size_t b = 0; b < smoothing_.size(); ++b)
-        smoothing_[b] = {guessBefore_[b].force - contact_[b].force, guessBefore_[b].moment - contact_[b].moment};
-    largestOverlap_ = overlapBefore_;
+    iteration_.setGuess(guessAtStart_); // that of the failed step would spoil the next prediction
+    smoothing_ = difference(guessAtStart_, contact_);
+    inertia_.setFactors(factorsAtStart_);
+    largestOverlap_ = overlapAtStart_;
 }
 
 std::vector<double> BodyCoupling::save() const
@@ -261,25 +277,27 @@ std::vector<double> BodyCoupling::save() const
     const std::vector<double> smooth = smooth_->save();
     data.insert(data.end(), smooth.begin(), smooth.end());
     data.insert(data.end(), isHeld_.begin(), isHeld_.end());
+    data.push_back(largestOverlap_);
     return data;
 }
 
 void BodyCoupling::restore(const std::vector<double>& data)
 {
-    const std::size_t tail = (3*6 + 2 + SmoothMotion::perBody + 1)*setup_.bodies.size();
+    const std::size_t tail = (3*6 + 2 + SmoothMotion::perBody + 1)*setup_.bodies.size() + 1;
     if (data.size() < tail) throw std::runtime_error("restart: the stored state of the bodies is too short for this case");
     const double* at = data.data() + data.size() - tail;
     std::vector<Load> guess(lastLoads_.size());
     for (auto* loads : {&lastLoads_, &contact_, &guess})
         for (Load& l : *loads) { get(at, l.force); get(at, l.moment); }
     iteration_.setGuess(guess);
-    for (std::size_t b = 0; b < guess.size(); ++b) smoothing_[b] = {guess[b].force - contact_[b].force, guess[b].moment - contact_[b].moment};
+    smoothing_ = difference(guess, contact_);
     std::vector<InertiaFactor> factors(isHeld_.size());
     for (InertiaFactor& f : factors) { f.mass = *at++; f.turn = *at++; }
     inertia_.setFactors(factors);
     const double* smooth = at;
     at += SmoothMotion::perBody*isHeld_.size();
     isHeld_.assign(at, at + isHeld_.size());
+    largestOverlap_ = at[isHeld_.size()];
     guarded([&]
     {
         engine_->setHeld(isHeld_);

@@ -71,6 +71,7 @@ private:
     void runEngine(double duration, const std::vector<Load>& loads);
     void shareResults();
     BodyState drifted(int body) const;
+    void hold(const std::vector<char>& isHeld);
     bool hasLeft(int body) const;
     void guarded(const std::function<void()>& work) const;
 
@@ -83,14 +84,15 @@ private:
     bool isAtStart_ = false;                    // the engine is in the state saved_: no restore, which rebuilds the neighbour lists
     std::vector<BodyState> states_, predicted_, result_;
     std::vector<Load> lastLoads_, loads_, newContact_, contact_, wallLoads_;
-    std::vector<Load> smoothing_, guessBefore_; // smoothing_: of the guess, what is not contact
+    std::vector<Load> smoothing_, guessAtStart_; // smoothing_: of the guess, what is not contact
+    std::vector<InertiaFactor> factorsAtStart_;
     std::vector<int> contactCounts_, wallContactCounts_;
     std::vector<char> isHeld_;
     ContactIteration iteration_;
     AddedInertia inertia_;
     MotionCheck check_;
     std::unique_ptr<SmoothMotion> smooth_;
-    double dt_ = 0, largestOverlap_ = 0, overlapBefore_ = 0, demTimeStep_ = 0;
+    double dt_ = 0, largestOverlap_ = 0, overlapAtStart_ = 0, demTimeStep_ = 0;
     double springSpeed_ = 0;    // what the springs can add to a body's speed in this step [m/s]
 };
 

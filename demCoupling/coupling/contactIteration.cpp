@@ -46,8 +46,7 @@ bool ContactIteration::take(const std::vector<Load>& loads, const AddedInertia& 
 std::vector<Load> ContactIteration::lastChange() const
 {
     std::vector<Load> change(guess_.size());
-    for (std::size_t b = 0; b < guess_.size(); ++b)
-        change[b] = {guess_[b].force - guessBefore_[b].force, guess_[b].moment - guessBefore_[b].moment};
+    for (std::size_t b = 0; b < guess_.size(); ++b) change[b] = guess_[b] - guessBefore_[b];
     return change;
 }
 

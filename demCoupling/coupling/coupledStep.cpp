@@ -52,10 +52,19 @@ void CoupledStep::start(FlowState state, bool isSharp)
     loads_.assign(scene_.solids().size(), {Vec3::Zero(), Vec3::Zero()});
 }
 
+/// Of the scene's poses and offsets exactly: no further correction of volumes, no change of the phase field.
+void CoupledStep::restoreGeometry()
+{
+    if (scene_.isEmpty()) return;
+    PhaseTimer t(timers_, Phase::Cut);
+    fluid_.setGeometry(&builder_->build(scene_.solids()), &scene_.solids(), false);
+}
+
 StepResult CoupledStep::step(double dt)
 {
     StepResult result;
     const std::vector<double> sceneBefore = scene_.save();
+    const auto loadsBefore = loads_;
     const double time = fluid_.state().time;
     if (coupling_)
     {
@@ -84,7 +93,8 @@ StepResult CoupledStep::step(double dt)
         fluid_.rejectStep();
         if (coupling_) coupling_->reject();
         scene_.restore(sceneBefore);
-        if (scene_.moves()) cut(true);
+        loads_ = loadsBefore;
+        restoreGeometry();
         return result;
     }
     PhaseTimer t(timers_, Phase::FlowAssembly);
@@ -213,9 +223,7 @@ void CoupledStep::restore(FlowState state, const std::map<std::string, std::vect
     for (std::size_t s = 0; s < loads_.size() && 6*s + 5 < loads.size(); ++s)
         for (int d = 0; d < 3; ++d) { loads_[s].force[d] = loads[6*s + d]; loads_[s].moment[d] = loads[6*s + 3 + d]; }
     if (coupling_) coupling_->restore(array("bodies"));
-    // the geometry of the stored state exactly: same poses and offsets, no further volume correction
-    const Cover& cover = builder_->build(scene_.solids());
-    fluid_.setGeometry(&cover, &scene_.solids(), false);
+    restoreGeometry();
     wet_ = fluid_.wetFractions();
 }
 

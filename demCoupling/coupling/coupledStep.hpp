@@ -58,6 +58,7 @@ public:
 
 private:
     void cut(bool hasChanged);
+    void restoreGeometry();
     double smallestCutElement() const;  ///< [m]; huge where nothing is cut
     void solveWithContact(StepResult& result);
 

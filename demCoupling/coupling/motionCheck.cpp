@@ -19,7 +19,7 @@ bool crosses(const Vec3& a, const Vec3& b, const Vec3& p, const Vec3& q, const V
 {
     const Vec3 normal = (q - p).cross(r - p);
     const double heightA = normal.dot(a - p), heightB = normal.dot(b - p);
-    if (!(heightA*heightB < 0)) return false;
+    if ((heightA > 0) == (heightB > 0)) return false;
     const Vec3 x = a + (b - a)*(heightA/(heightA - heightB));
     return normal.dot((q - p).cross(x - p)) >= 0 && normal.dot((r - q).cross(x - q)) >= 0 && normal.dot((p - r).cross(x - r)) >= 0;
 }
@@ -65,7 +65,7 @@ std::string MotionCheck::thrownBody(const std::vector<BodyState>& before, const 
     double fastest = fluidSpeed;
     for (std::size_t b = 0; b < bodies_.size(); ++b) fastest = std::max(fastest, surfaceSpeed(b, before[b]));
     for (std::size_t b = 0; b < bodies_.size(); ++b)
-        if (!contact[b].force.isZero(0) && !(surfaceSpeed(b, after[b]) <= 3*fastest + slack)) return bodies_[b].name;
+        if (!contact[b].isZero() && !(surfaceSpeed(b, after[b]) <= 3*fastest + slack)) return bodies_[b].name;
     return "";
 }
 
@@ -94,7 +94,7 @@ bool MotionCheck::passes(const Path& path, std::size_t w) const
     if (wall.kind == WallDefinition::Kind::Plane)
     {
         for (std::size_t s = 0; s < n; ++s)
-            if (wall.normal.dot(path.before[s] - wall.point)*wall.normal.dot(path.after[s] - wall.point) < 0) return true;
+            if ((wall.normal.dot(path.before[s] - wall.point) > 0) != (wall.normal.dot(path.after[s] - wall.point) > 0)) return true;
         return false;
     }
     if (!meet(path.box, wallBoxes_[w])) return false;
@@ -123,11 +123,11 @@ bool MotionCheck::entersBody(const Path& path, std::size_t other, const BodyStat
     return false;
 }
 
-std::string MotionCheck::passage(const std::vector<BodyState>& before, const std::vector<BodyState>& after) const
+std::string MotionCheck::passage(const std::vector<BodyState>& before, const std::vector<BodyState>& after, const std::vector<Load>& contact) const
 {
     for (std::size_t b = 0; b < bodies_.size(); ++b)
     {
-        if (isStill(before[b], after[b])) continue;
+        if (contact[b].isZero() || isStill(before[b], after[b])) continue;
         const Path way = path(b, before[b], after[b]);
         for (std::size_t w = 0; w < walls_.size(); ++w)
             if (passes(way, w)) return "body '" + bodies_[b].name + "' passes through '" + walls_[w].name + "'";

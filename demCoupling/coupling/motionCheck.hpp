@@ -21,8 +21,8 @@ public:
         double fluidSpeed, double slack) const;
 
     /// What got through what: a contact sphere whose centre is on the other side of a wall or inside another body, that is with an overlap
-    /// beyond its radius. Its spring then pushes the wrong way. Empty: nothing.
-    std::string passage(const std::vector<BodyState>& before, const std::vector<BodyState>& after) const;
+    /// beyond its radius. Its spring then pushes the wrong way. Bodies without contact load are not looked at. Empty: nothing.
+    std::string passage(const std::vector<BodyState>& before, const std::vector<BodyState>& after, const std::vector<Load>& contact) const;
 
 private:
     double surfaceSpeed(std::size_t body, const BodyState& state) const;

@@ -35,7 +35,7 @@ void SmoothMotion::find(const std::vector<BodyState>& before, const std::vector<
         foundStep_[b] = {mean, dt};
         found_[b] = after[b];
         drive_[b] = contact[b];
-        if (!contact[b].force.isZero(0) || !contact[b].moment.isZero(0))
+        if (!contact[b].isZero())
         {
             const double share = dt/(dt + last_[b].dt);
             Motion& smooth = found_[b].motion;
@@ -43,9 +43,9 @@ void SmoothMotion::find(const std::vector<BodyState>& before, const std::vector<
             smooth.angularVelocity = mean.angularVelocity + share*(mean.angularVelocity - last_[b].mean.angularVelocity);
             found_[b].angularMomentum += inertiaTimes(bodies_[b], after[b], smooth.angularVelocity - after[b].motion.angularVelocity);
         }
-        const Vec3 before_ = states_[b].motion.velocity - before[b].motion.velocity; // zero, to the last bit, where nothing touched
-        drive_[b].force += bodies_[b].mass/dt*(found_[b].motion.velocity - after[b].motion.velocity - before_);
-        drive_[b].moment += (found_[b].angularMomentum - after[b].angularMomentum - (states_[b].angularMomentum - before[b].angularMomentum))/dt;
+        // zero, to the last bit, where nothing touched
+        drive_[b].force += bodies_[b].mass/dt*((found_[b].motion.velocity - after[b].motion.velocity) - (states_[b].motion.velocity - before[b].motion.velocity));
+        drive_[b].moment += ((found_[b].angularMomentum - after[b].angularMomentum) - (states_[b].angularMomentum - before[b].angularMomentum))/dt;
     }
 }
 
@@ -53,6 +53,12 @@ void SmoothMotion::accept()
 {
     states_ = found_;
     last_ = foundStep_;
+}
+
+void SmoothMotion::reset(int body, const BodyState& state)
+{
+    states_[body] = state;
+    last_[body] = {state.motion, 0};
 }
 
 std::vector<double> SmoothMotion::save() const

@@ -27,6 +27,7 @@ public:
     const std::vector<Load>& drive() const { return drive_; }
 
     void accept();
+    void reset(int body, const BodyState& state);   ///< held or let go: no past
 
     /// At t^n: poses as in the engine, smooth velocities and angular momenta.
     const std::vector<BodyState>& states() const { return states_; }

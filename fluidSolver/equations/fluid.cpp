@@ -113,6 +113,7 @@ TransportReport Fluid::beginStep(double dt)
     liquidBefore_ = keptLiquid();
     time_ = TimeScheme::bdf(controls_.timeOrder, dt, state_.dt);
     TransportReport report;
+    level_.clear();
     if (fluid_.isTwoPhase)
     {
         evaluatePatches(state_.time + 0.5*dt);
@@ -129,9 +130,16 @@ TransportReport Fluid::beginStep(double dt)
 /// Of the surface's level, in widths: a thousandth of the way that it went in the last time step. Exact at rest, where any other would be a current.
 double Fluid::levelTolerance() const
 {
-    constexpr double share = 1e-3, least = 1e-10, most = 1e-3;
+    constexpr double share = 1e-2, least = 1e-10, most = 1e-2;
     const double way = longestWay(mesh_, halo_, transport_.width(), state_);
     return std::clamp(share*way, least, most);
+}
+
+/// Planes of the free surface. The level found is where a second search in the same step begins.
+void Fluid::findSurface()
+{
+    level_ = surfaceLevel(mesh_, halo_, state_.alpha, transport_.width(), profileCells(), cover_, levelTolerance(), level_.empty() ? nullptr : &level_);
+    planes_.propagate(mesh_, graph_, halo_, level_, controls_.gravityLayers, cover_, true);
 }
 
 /// Inside solids the phase field continues the free surface outside: the nearest plane's profile, so that a plane
@@ -139,7 +147,7 @@ double Fluid::levelTolerance() const
 void Fluid::extendPhase()
 {
     extendIntoSolids(mesh_, graph_, halo_, *cover_, state_.alpha);
-    propagateInterfacePlanes(mesh_, graph_, halo_, state_.alpha, transport_.width(), controls_.gravityLayers, planes_, cover_, profileCells(), levelTolerance());
+    findSurface();
     for (int i : planes_.nodes())
     {
         if (!cover_->isActiveNode[i])
@@ -156,7 +164,7 @@ void Fluid::setGravity(const Cover* cover)
     const bool isBalanced = fluid_.isTwoPhase && controls_.balancedGravity;
     if (isBalanced)
     {
-        propagateInterfacePlanes(mesh_, graph_, halo_, state_.alpha, transport_.width(), controls_.gravityLayers, planes_, cover_, profileCells(), levelTolerance());
+        findSurface();
         surfaceDensity(mesh_, fluid_, controls_, planes_, transport_.width(), state_.alpha, ofSurface);
     }
     gravityForce(mesh_, fluid_.gravity, rho, isBalanced ? &planes_ : nullptr, ofSurface, cover, force_);

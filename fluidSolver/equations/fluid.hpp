@@ -87,6 +87,7 @@ private:
     void evaluatePatches(double time);
     void moveInactiveNodes();
     void extendPhase();
+    void findSurface();
     void setGravity(const Cover* cover);
     void setFirstGuess();
     TransportReport advancePhase(double dt);
@@ -110,6 +111,7 @@ private:
     DualCellTransport transport_;
     std::unique_ptr<PhaseFieldSupg> supg_;  // the paper's form, when selected
     InterfacePlanes planes_;
+    std::vector<double> level_;             // of the last search in this step; empty: none yet
     const Cover* cover_ = nullptr;
     Cover start_, during_;              // while solids move: geometry of t, mean over the step
     bool isMoved_ = false;              // start_ holds

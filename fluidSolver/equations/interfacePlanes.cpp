@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "equations/interfacePlanes.hpp"
 
-#include "equations/surfaceLevel.hpp"
 #include "geometry/cover.hpp"
 
 #include <algorithm>
@@ -261,13 +260,6 @@ void InterfacePlanes::propagate(const SimplexMesh& mesh, const NodeGraph& graph,
         for (int d = 0; d < dim_; ++d)
             distance_[i] += normal(i)[d]*(mesh.x[static_cast<std::size_t>(i)*dim_ + d] - point(i)[d]);
     }
-}
-
-void propagateInterfacePlanes(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo,
-    const std::vector<double>& alpha, const std::vector<double>& width, int nRings, InterfacePlanes& planes,
-    const Cover* cover, const DualCells* cells, double tolerance)
-{
-    planes.propagate(mesh, graph, halo, surfaceLevel(mesh, halo, alpha, width, cells, cover, tolerance), nRings, cover, true);
 }
 
 } // namespace flotsam

@@ -54,9 +54,4 @@ private:
     std::vector<double> before_;    // halo entries before an exchange
 };
 
-/// Planes of the zero level of surfaceLevel(), with mean normals. width: nNodes [m]; cells, tolerance: see there.
-void propagateInterfacePlanes(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo,
-    const std::vector<double>& alpha, const std::vector<double>& width, int nRings, InterfacePlanes& planes,
-    const Cover* cover = nullptr, const DualCells* cells = nullptr, double tolerance = 1e-10);
-
 } // namespace flotsam

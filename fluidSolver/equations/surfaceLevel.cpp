@@ -17,55 +17,120 @@ namespace
 /// tetrahedra, and a level cut off there tilts the element's plane.
 constexpr double lowest = 1e-4, highest = 1 - lowest;
 
-constexpr int mostRepeats = 12;
+constexpr int mostRepeats = 12, patience = 3;
+constexpr double stubborn = 0.7;        // change over the last one from which a node does not converge (sheets, corners) and keeps the mean of both
+constexpr int nRings = 3;               // around the elements that the surface may pass: the level farther away (spray, traces of alpha) is of no use
+constexpr double possible = 0.1;        // least alpha, or 1 - alpha, of such an element
 constexpr double lastChoice = 1e-12;    // weight of elements whose level is known at some nodes only: no others, or they do not count
 
 bool isInBand(double alpha) { return alpha > lowest && alpha < highest; }
 
-/// An element with a say in the surface's direction at its nodes.
-struct Facing { int element; double weight; };
+/// Elements with a say in the surface's direction at their nodes, and these nodes.
+template<int D>
+struct FacingElements
+{
+    static constexpr int N = D + 1;
+    struct Element { const double* gradN; double weight; int node[N], local[N]; };
 
-std::vector<Facing> facingElements(const SimplexMesh& mesh, const std::vector<double>& alpha, const Cover* cover)
+    std::vector<Element> elements;
+    std::vector<int> local;     ///< per mesh node: its place in sums, -1: none
+    std::vector<int> band;      ///< owned nodes whose level is sought
+    std::vector<double> sums;   ///< around each node: weighted gradients of the level, D, and their lengths
+
+    FacingElements(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& alpha, const Cover* cover);
+    void sumGradients(const std::vector<double>& level);
+};
+
+/// Positive at the nodes near elements that the surface may pass: see nRings. Elements: those with nodes in the band.
+std::vector<double> nearSurface(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& alpha, const std::vector<int>& elements)
 {
     const int n = mesh.dim + 1;
-    std::vector<Facing> result;
+    std::vector<double> isNear(mesh.nNodes, 0.0), next;
+    for (int e : elements)
+    {
+        const int* nodes = &mesh.elements[std::size_t(e)*n];
+        double least = 1, most = 0;
+        for (int a = 0; a < n; ++a)
+        {
+            least = std::min(least, alpha[nodes[a]]);
+            most = std::max(most, alpha[nodes[a]]);
+        }
+        if (most > possible && least < 1 - possible)
+            for (int a = 0; a < n; ++a) isNear[nodes[a]] = 1;
+    }
+    for (int ring = 0; ring < nRings; ++ring)
+    {
+        halo.update(isNear, 1);
+        next = isNear;
+        for (int e : elements)
+        {
+            const int* nodes = &mesh.elements[std::size_t(e)*n];
+            if (std::any_of(nodes, nodes + n, [&](int i) { return isNear[i] > 0; }))
+                for (int a = 0; a < n; ++a) next[nodes[a]] = 1;
+        }
+        isNear.swap(next);
+    }
+    halo.update(isNear, 1);
+    return isNear;
+}
+
+std::vector<int> bandElements(const SimplexMesh& mesh, const std::vector<double>& alpha, const Cover* cover)
+{
+    const int n = mesh.dim + 1;
+    std::vector<int> result;
     for (int e = 0; e < mesh.nElements; ++e)
     {
         const int* nodes = &mesh.elements[std::size_t(e)*n];
         if (cover && cover->state[e] == ElementState::Solid) continue;
-        if (std::none_of(nodes, nodes + n, [&](int i) { return isInBand(alpha[i]); })) continue;
-        bool isKnown = true;
-        double variation = 0;
-        for (int a = 0; a < n; ++a)
-        {
-            const int i = nodes[a];
-            isKnown = isKnown && isInBand(alpha[i]) && (!cover || cover->isActiveNode[i]);
-            variation += alpha[i]*(1 - alpha[i]);
-        }
-        result.push_back({e, variation*variation*mesh.volume[e]*(isKnown ? 1 : lastChoice)});
+        if (std::any_of(nodes, nodes + n, [&](int i) { return isInBand(alpha[i]); })) result.push_back(e);
     }
     return result;
 }
 
-/// Sums around the nodes of the band: weighted gradients of the level, dim, and their lengths.
-void sumGradients(const SimplexMesh& mesh, const std::vector<Facing>& elements, const std::vector<double>& level, std::vector<double>& sums)
+template<int D>
+FacingElements<D>::FacingElements(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& alpha, const Cover* cover)
+:   local(mesh.nNodes, -1)
 {
-    const int dim = mesh.dim, n = dim + 1;
-    for (const Facing& f : elements)
-        for (int a = 0; a < n; ++a) std::fill_n(&sums[std::size_t(mesh.elements[std::size_t(f.element)*n + a])*n], n, 0.0);
-    for (const Facing& f : elements)
+    const std::vector<int> candidates = bandElements(mesh, alpha, cover);
+    const std::vector<double> isNear = nearSurface(mesh, halo, alpha, candidates);
+    int count = 0;
+    for (int e : candidates)
     {
-        const int* nodes = &mesh.elements[std::size_t(f.element)*n];
-        double gradient[3] = {}, length = 0;
-        for (int a = 0; a < n; ++a)
-            for (int d = 0; d < dim; ++d) gradient[d] += level[nodes[a]]*mesh.gradN[(std::size_t(f.element)*n + a)*dim + d];
-        for (int d = 0; d < dim; ++d) length += gradient[d]*gradient[d];
-        for (int a = 0; a < n; ++a)
+        const int* nodes = &mesh.elements[std::size_t(e)*N];
+        if (std::none_of(nodes, nodes + N, [&](int i) { return isNear[i] > 0; })) continue;
+        Element element{&mesh.gradN[std::size_t(e)*N*D], 0, {}, {}};
+        bool isKnown = true;
+        double variation = 0;
+        for (int a = 0; a < N; ++a)
         {
-            double* sum = &sums[std::size_t(nodes[a])*n];
-            for (int d = 0; d < dim; ++d) sum[d] += f.weight*gradient[d];
-            sum[dim] += f.weight*std::sqrt(length);
+            const int i = nodes[a];
+            isKnown = isKnown && isInBand(alpha[i]) && (!cover || cover->isActiveNode[i]);
+            variation += alpha[i]*(1 - alpha[i]);
+            if (local[i] < 0) local[i] = count++;
+            element.node[a] = i;
+            element.local[a] = local[i];
         }
+        element.weight = variation*variation*mesh.volume[e]*(isKnown ? 1 : lastChoice);
+        elements.push_back(element);
+    }
+    for (int i = 0; i < mesh.nOwned; ++i)
+        if (isNear[i] > 0 && isInBand(alpha[i])) band.push_back(i);
+    sums.resize(std::size_t(count)*N);
+}
+
+template<int D>
+void FacingElements<D>::sumGradients(const std::vector<double>& level)
+{
+    std::fill(sums.begin(), sums.end(), 0.0);
+    for (const Element& e : elements)
+    {
+        double part[N] = {}, square = 0;
+        for (int a = 0; a < N; ++a)
+            for (int d = 0; d < D; ++d) part[d] += level[e.node[a]]*e.gradN[a*D + d];
+        for (int d = 0; d < D; ++d) square += part[d]*part[d];
+        part[D] = std::sqrt(square);
+        for (int a = 0; a < N; ++a)
+            for (int d = 0; d < N; ++d) sums[std::size_t(e.local[a])*N + d] += e.weight*part[d];
     }
 }
 
@@ -79,6 +144,42 @@ double centroidHeight(const DualCells& cells, int i, const double* normal, int d
     double result = 0;
     for (int d = 0; d < dim; ++d) result += normal[d]*cells.centroid(i)[d];
     return result;
+}
+
+/// Repeats what surfaceLevel() describes on the level it is given.
+template<int D>
+void takeMeans(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& alpha, const std::vector<double>& width,
+    const DualCells& cells, const Cover* cover, double tolerance, const std::vector<double>& atNode, std::vector<double>& level)
+{
+    FacingElements<D> facing(mesh, halo, alpha, cover);
+    std::vector<double> lastChange(facing.band.size(), 0.0);  // negative: given up
+    for (int repeat = 0; repeat < mostRepeats; ++repeat)
+    {
+        facing.sumGradients(level);
+        double change = 0;
+        for (std::size_t k = 0; k < facing.band.size(); ++k)
+        {
+            if (lastChange[k] < 0) continue;
+            const int i = facing.band[k];
+            double* sum = &facing.sums[std::size_t(facing.local[i])*(D + 1)], length = 0;
+            for (int d = 0; d < D; ++d) length += sum[d]*sum[d];
+            length = std::sqrt(length);
+            if (!(length > 1e-12*sum[D])) continue;
+            for (int d = 0; d < D; ++d) sum[d] /= length;
+            // where the neighbours do not agree on a direction (sheets, corners) there is no slab of the cell to take the mean over
+            const double share = std::clamp((length/sum[D] - 0.5)/0.45, 0., 1.);
+            const double slab = width[i]*std::log(frontFromMean(alpha[i], thicknessInWidths(cells, i, sum, width[i])))
+                - centroidHeight(cells, i, sum, D);
+            const double found = share*slab + (1 - share)*atNode[i];
+            const double own = std::abs(found - level[i])/width[i];
+            const bool isStubborn = repeat >= patience && own > stubborn*lastChange[k];
+            lastChange[k] = isStubborn ? -1 : own;
+            level[i] = isStubborn ? 0.5*(found + level[i]) : found;
+            if (!isStubborn) change = std::max(change, 4*alpha[i]*(1 - alpha[i])*own); // as much as it is of alpha, four times
+        }
+        halo.update(level, 1);
+        if (halo.max(change) < tolerance) break;
+    }
 }
 
 } // namespace
@@ -99,50 +200,18 @@ ProfileSlab profileSlab(const DualCells* cells, int i, const double* normal, dou
 }
 
 std::vector<double> surfaceLevel(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& alpha,
-    const std::vector<double>& width, const DualCells* cells, const Cover* cover, double tolerance)
+    const std::vector<double>& width, const DualCells* cells, const Cover* cover, double tolerance, const std::vector<double>* guess)
 {
-    const int dim = mesh.dim, n = dim + 1;
     const double clip = std::log(highest/lowest);
     std::vector<double> level(mesh.nNodes);
     for (int i = 0; i < mesh.nNodes; ++i)
         level[i] = width[i]*(alpha[i] <= lowest ? -clip : alpha[i] >= highest ? clip : std::log(alpha[i]/(1 - alpha[i])));
     if (!cells) return level;
-
-    const std::vector<Facing> elements = facingElements(mesh, alpha, cover);
-    std::vector<int> band;
-    std::vector<char> isTaken(mesh.nOwned, 0);
-    for (const Facing& f : elements)
-        for (int a = 0; a < n; ++a)
-        {
-            const int i = mesh.elements[std::size_t(f.element)*n + a];
-            if (i >= mesh.nOwned || isTaken[i] || !isInBand(alpha[i])) continue;
-            isTaken[i] = 1;
-            band.push_back(i);
-        }
     const std::vector<double> atNode = level;
-    std::vector<double> sums(std::size_t(mesh.nNodes)*n);
-    for (int repeat = 0; repeat < mostRepeats; ++repeat)
-    {
-        sumGradients(mesh, elements, level, sums);
-        double change = 0;
-        for (int i : band)
-        {
-            double* sum = &sums[std::size_t(i)*n], length = 0;
-            for (int d = 0; d < dim; ++d) length += sum[d]*sum[d];
-            length = std::sqrt(length);
-            if (!(length > 1e-12*sum[dim])) continue;
-            for (int d = 0; d < dim; ++d) sum[d] /= length;
-            // where the neighbours do not agree on a direction (sheets, corners) there is no slab of the cell to take the mean over
-            const double share = std::clamp((length/sum[dim] - 0.5)/0.45, 0., 1.);
-            const double slab = width[i]*std::log(frontFromMean(alpha[i], thicknessInWidths(*cells, i, sum, width[i])))
-                - centroidHeight(*cells, i, sum, dim);
-            const double found = share*slab + (1 - share)*atNode[i];
-            change = std::max(change, std::abs(found - level[i])/width[i]);
-            level[i] = found;
-        }
-        halo.update(level, 1);
-        if (halo.max(change) < tolerance) break;
-    }
+    for (int i = 0; guess && i < mesh.nNodes; ++i)
+        if (isInBand(alpha[i])) level[i] = (*guess)[i];
+    if (mesh.dim == 2) takeMeans<2>(mesh, halo, alpha, width, *cells, cover, tolerance, atNode, level);
+    else takeMeans<3>(mesh, halo, alpha, width, *cells, cover, tolerance, atNode, level);
     return level;
 }
 

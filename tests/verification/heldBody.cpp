@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 using namespace flotsam;
 
@@ -169,12 +170,24 @@ TEST_CASE("a bar that no spring stops does not pass the stop: the step fails, at
         channel.timers);
     run.start(channel.rest(), true);
     StepResult result;
+    std::map<std::string, std::vector<double>> before;
+    std::vector<double> alpha, u;
     for (int k = 0; k < 40; ++k)
     {
+        before = run.save();
+        alpha = run.fluid().state().alpha;
+        u = run.fluid().state().u;
         result = run.step(0.005);
         if (!result.isAccepted) break;
     }
     REQUIRE(!result.isAccepted);
+    for (const auto& [name, values] : before)
+    {
+        CAPTURE(name);
+        if (name != "liquid") CHECK(run.save().at(name) == values); // one fluid: not a number
+    }
+    CHECK(run.fluid().state().alpha == alpha);
+    CHECK(run.fluid().state().u == u);
     CHECK(result.failure == "body 'bar' passes through 'stop'");
     const double place = run.records()[0].pose.position[0];
     CHECK(place + 0.08 < stop); // centres of the spheres in front
@@ -196,6 +209,7 @@ TEST_CASE("a bar is held until its release, then has its velocity; beyond the me
     CHECK(run.records()[0].pose.position[1] == 0.5);
     REQUIRE(run.step(0.001).isAccepted);
     CHECK(run.records()[0].motion.velocity[1] > 5);
+    CHECK(run.fluid().solidMotions()[0].velocity[1] == doctest::Approx(run.records()[0].motion.velocity[1]));
     for (int k = 0; k < 60; ++k) REQUIRE(run.step(0.005).isAccepted);
     const double place = run.records()[0].pose.position[1];
     CHECK(place > 1 + std::sqrt(6.0)*0.9);
