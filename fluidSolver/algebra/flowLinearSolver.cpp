@@ -205,7 +205,9 @@ SolveReport FlowLinearSolver::solve(std::vector<double>& x, std::vector<double>&
         return report;
     }
     // Bodies that shift in a jam can make an old hierarchy fail all at once: it gets one cycle of GMRES
-    const bool isOld = me.isNewMatrix && !me.system.pressure().isNew();
+    const bool isOld = !me.system.pressure().isNew();
+    // a solve that only follows a new contact impulse starts near its end: it says nothing about the hierarchy's age
+    bool isTelling = me.isNewMatrix;
     report = me.iterate(x, q, target, norm, isOld ? std::min(me.controls.restart, me.controls.maxIterations) : me.controls.maxIterations);
     report.initial = norm > 0 ? first/norm : 0;
     if (isOld && !report.hasConverged)
@@ -215,11 +217,12 @@ SolveReport FlowLinearSolver::solve(std::vector<double>& x, std::vector<double>&
         const int before = report.iterations;
         const double initial = report.initial;
         report = me.iterate(x, q, target, norm, me.controls.maxIterations);
+        me.system.pressure().countIterations(report.iterations);
+        isTelling = false;
         report.iterations += before;
         report.initial = initial;
     }
-    // a solve that only follows a new contact impulse starts near its end: it says nothing about the hierarchy's age
-    else if (me.isNewMatrix) me.system.pressure().countIterations(report.iterations);
+    if (isTelling) me.system.pressure().countIterations(report.iterations);
     report.rebuiltPreconditioner = me.isNewMatrix && me.system.pressure().isNew();
     return report;
 }

@@ -26,7 +26,7 @@ struct NumericsControls
     // stabilisation (paper eq 5)
     double tauFactor = 0.25;        ///< tau of SUPG and PSPG over Tezduyar's where inertia counts
     double tauContFactor = 1;       ///< multiplies tau_cont
-    bool tauContWithTimeStep = true; ///< tau_cont = rho h^2/(12 tau) with the time step inside tau (twophase), else rho(nu + |a|h/2)
+    bool tauContWithTimeStep = true; ///< tau_cont = rho h^2/(12 T), T with the time step (twophase), else rho(nu + |a|h/2)
     // embedded boundary
     bool nitsche = true;            ///< false: the paper's pure penalty
     double nitscheGamma = 4;        ///< non-symmetric Nitsche: coefficient of mu/h

@@ -124,7 +124,7 @@ void FlowEquation::assembleElements()
 /// the mass balance (time levels, cut elements, corrections of the phase field). After assembleWalls(): what a moving surface sweeps belongs to the
 /// balance. Open boundaries have their own part of it.
 /// Mass that vanishes takes its node's velocity along, mass that appears has that of the nodes around, by their densities: a uniform velocity meets no force
-/// either way, and no energy comes from it. With the node's own velocity it drives gas beside water and moving bodies by a constant factor a step.
+/// either way, and no speed above the neighbours' comes from it. With the node's own velocity it drives gas beside water and moving bodies by a constant factor a step.
 template<int D>
 void FlowEquation::removeMassDefect()
 {
@@ -154,7 +154,6 @@ void FlowEquation::coupleToNeighbours(int i, double value)
     };
     double sum = 0;
     for (int k = graph_.rowStart[i]; k < graph_.rowStart[i + 1]; ++k) sum += weight(k);
-    if (sum <= 0) return;
     for (int k = graph_.rowStart[i]; k < graph_.rowStart[i + 1]; ++k) addVelocity<D>(k, value*weight(k)/sum);
 }
 

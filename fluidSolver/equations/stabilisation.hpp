@@ -7,28 +7,41 @@
 namespace flotsam
 {
 
+/// Rates at which time steps, convection and viscosity change what an element holds [1/s], the viscous one by nu/h^2.
+struct ElementRates
+{
+    double transient, convective, viscous;
+
+    ElementRates(double dt, double speed, double h, double nu) : transient(2/dt), convective(2*speed/h), viscous(nu/(h*h)) {}
+
+    /// Time by these, with the inertial ones times `inertial` and so many nu/h^2 [s].
+    double time(double inertial, double viscosities) const
+    {
+        const double a = inertial*transient, b = inertial*convective, c = viscosities*viscous;
+        return 1/std::sqrt(a*a + b*b + c*c);
+    }
+};
+
 /// Time T in which an element passes on what happens in it [s]: Tezduyar's tau. The time step belongs into it: without it the two-phase scheme blows up
 /// within 30 steps (docs/numerics.md).
 inline double elementTime(double dt, double speed, double h, double nu)
 {
-    const double transient = 2/dt, convective = 2*speed/h, viscous = 12*nu/(h*h);
-    return 1/std::sqrt(transient*transient + convective*convective + viscous*viscous);
+    return ElementRates(dt, speed, h, nu).time(1, 12);
 }
 
 /// tau of SUPG and PSPG [s]: multiplies the momentum residual divided by rho. Where inertia counts `factor` times T (all of it damps vortices),
 /// where viscosity does 3/4 of T (with less the pressure beside cut elements converges slower than with order 1.5, with more the velocity is worse).
 inline double tauMomentum(double factor, double dt, double speed, double h, double nu)
 {
-    const double transient = 2/(factor*dt), convective = 2*speed/(factor*h), viscous = 16*nu/(h*h);
-    return 1/std::sqrt(transient*transient + convective*convective + viscous*viscous);
+    return ElementRates(dt, speed, h, nu).time(1/factor, 16);
 }
 
-/// Share of u' that convects (0..1): its inertial part. The residual of P1 lacks the viscous stress, u' is wrong where that matters, and there it
+/// Share of u' that convects (0..1): the inertial part of T. The residual of P1 lacks the viscous stress, u' is wrong where that matters, and there it
 /// oscillates from step to step (lid-driven cavity at Re 100); convection is of no importance in such elements.
 inline double convectingShare(double dt, double speed, double h, double nu)
 {
-    const double transient = 2/dt, convective = 2*speed/h, viscous = 12*nu/(h*h);
-    const double inertial = transient*transient + convective*convective;
+    const ElementRates r(dt, speed, h, nu);
+    const double inertial = r.transient*r.transient + r.convective*r.convective, viscous = 12*r.viscous;
     return inertial/(inertial + viscous*viscous);
 }
 

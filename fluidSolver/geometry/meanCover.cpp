@@ -48,8 +48,6 @@ void setMeanCover(const SimplexMesh& mesh, const Cover& start, const Cover& end,
     mean.cutIndex.assign(mesh.nElements, -1);
     mean.cuts.clear();
     mean.facets.clear();
-    mean.isActiveNode = end.isActiveNode;
-    for (int i = 0; i < mesh.nNodes; ++i) mean.isActiveNode[i] = start.isActiveNode[i] || end.isActiveNode[i];
     for (int e = 0; e < mesh.nElements; ++e)
     {
         if (start.state[e] == end.state[e] && end.state[e] != ElementState::Cut) continue;
