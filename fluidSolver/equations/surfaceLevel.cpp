@@ -18,7 +18,7 @@ namespace
 constexpr double lowest = 1e-4, highest = 1 - lowest;
 
 constexpr int mostRepeats = 12, patience = 3;
-constexpr double stubborn = 0.7;        // change over the last one from which a node does not converge (sheets, corners) and keeps the mean of both
+constexpr double stubborn = 0.7;        // change over the last one from which a node does not converge (sheets, corners): it is not waited for
 constexpr int nRings = 3;               // around the elements that the surface may pass: the level farther away (spray, traces of alpha) is of no use
 constexpr double possible = 0.1;        // least alpha, or 1 - alpha, of such an element
 constexpr double lastChoice = 1e-12;    // weight of elements whose level is known at some nodes only: no others, or they do not count
@@ -152,14 +152,13 @@ void takeMeans(const SimplexMesh& mesh, const Halo& halo, const std::vector<doub
     const DualCells& cells, const Cover* cover, double tolerance, const std::vector<double>& atNode, std::vector<double>& level)
 {
     FacingElements<D> facing(mesh, halo, alpha, cover);
-    std::vector<double> lastChange(facing.band.size(), 0.0);  // negative: given up
+    std::vector<double> lastChange(facing.band.size());
     for (int repeat = 0; repeat < mostRepeats; ++repeat)
     {
         facing.sumGradients(level);
         double change = 0;
         for (std::size_t k = 0; k < facing.band.size(); ++k)
         {
-            if (lastChange[k] < 0) continue;
             const int i = facing.band[k];
             double* sum = &facing.sums[std::size_t(facing.local[i])*(D + 1)], length = 0;
             for (int d = 0; d < D; ++d) length += sum[d]*sum[d];
@@ -171,11 +170,11 @@ void takeMeans(const SimplexMesh& mesh, const Halo& halo, const std::vector<doub
             const double slab = width[i]*std::log(frontFromMean(alpha[i], thicknessInWidths(cells, i, sum, width[i])))
                 - centroidHeight(cells, i, sum, D);
             const double found = share*slab + (1 - share)*atNode[i];
-            const double own = std::abs(found - level[i])/width[i];
-            const bool isStubborn = repeat >= patience && own > stubborn*lastChange[k];
-            lastChange[k] = isStubborn ? -1 : own;
-            level[i] = isStubborn ? 0.5*(found + level[i]) : found;
-            if (!isStubborn) change = std::max(change, 4*alpha[i]*(1 - alpha[i])*own); // as much as it is of alpha, four times
+            // as much as it is of alpha, four times: far from the surface the level is of little use
+            const double own = 4*alpha[i]*(1 - alpha[i])*std::abs(found - level[i])/width[i];
+            if (repeat < patience || own < stubborn*lastChange[k]) change = std::max(change, own);
+            lastChange[k] = own;
+            level[i] = found;
         }
         halo.update(level, 1);
         if (halo.max(change) < tolerance) break;
