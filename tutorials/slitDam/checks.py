@@ -5,7 +5,7 @@ import numpy as np
 from tutorial import parameters
 
 OVERLAP = 1e-3      # of bars and pipes [m]: a twentieth of a bar
-MASS = 0.01         # of the liquid at the start
+MASS = 1e-6         # of the liquid at the start; 1e-12 is reached
 
 
 def check(report, runs):
