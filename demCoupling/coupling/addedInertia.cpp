@@ -19,10 +19,14 @@ AddedInertia::AddedInertia(const std::vector<BodyDefinition>& bodies, const Coup
 :   bodies_(bodies), controls_(controls), factors_(bodies.size())
 {}
 
+double AddedInertia::expected(int b) const { return 1 + controls_.liquidDensity*bodies_[b].volume/bodies_[b].mass; }
+
+bool AddedInertia::isLight(int b) const { return expected(b) >= leastFactor; }
+
 InertiaFactor AddedInertia::doubt(int b) const
 {
-    const double expected = 1 + controls_.liquidDensity*bodies_[b].volume/bodies_[b].mass;
-    if (expected < leastFactor) return {};
+    if (!isLight(b)) return {};
+    const double expected = this->expected(b);
     return {std::max(1.0, expected/factors_[b].mass), std::max(1.0, expected/factors_[b].turn)};
 }
 

@@ -26,6 +26,9 @@ public:
     void setFactors(const std::vector<InertiaFactor>& factors) { factors_ = factors; }
     void drop(int body) { factors_[body] = InertiaFactor(); }
 
+    /// So light that a factor may be due.
+    bool isLight(int body) const;
+
     /// Error of a body's contact load over its last change: what contracts by r a time is still off by change/(1 - r). From the liquid the body
     /// displaces, over its factors: it must be known before there are changes. 1 for bodies that need no factor.
     InertiaFactor doubt(int body) const;
@@ -37,6 +40,8 @@ public:
     std::vector<Load> engineLoads(const std::vector<Load>& loads, const std::vector<Load>& contact) const;
 
 private:
+    double expected(int body) const;    ///< (mass + displaced liquid)/mass
+
     std::vector<BodyDefinition> bodies_;
     CouplingControls controls_;
     std::vector<InertiaFactor> factors_;

@@ -17,6 +17,9 @@ std::vector<Load> difference(const std::vector<Load>& a, const std::vector<Load>
     return result;
 }
 
+/// With the last load alone what the tolerance lets pass grows faster (docs/contact.md).
+Load mean(const Load& a, const Load& b) { return {0.5*(a.force + b.force), 0.5*(a.moment + b.moment)}; }
+
 constexpr int perBody = 7 + 6 + 3 + 6 + 1; // pose, motion, angular momentum, contact load, contact count
 constexpr int perWall = 6 + 1;              // contact load, contact count
 
@@ -232,9 +235,11 @@ bool BodyCoupling::correct(const std::vector<Load>& loads)
     return iteration_.take(smooth_->drive(), inertia_);
 }
 
-void BodyCoupling::accept()
+void BodyCoupling::accept(const std::vector<Motion>& inFluid)
 {
-    std::vector<Load> guess(smooth_->drive());
+    std::vector<Load> guess(states_.size());
+    std::vector<char> isLight(states_.size());
+    for (int b = 0; b < nBodies(); ++b) isLight[b] = inertia_.isLight(b);
     for (int b = 0; b < nBodies(); ++b)
     {
         lastLoads_[b] = isHeld_[b] ? Load() : loads_[b]; // what holds a body takes its loads
@@ -243,13 +248,13 @@ void BodyCoupling::accept()
         if (s.mass > 1 && !isHeld_[b])
             lastLoads_[b].force = setup_.bodies[b].mass/dt_*(result_[b].motion.velocity - states_[b].motion.velocity) - newContact_[b].force;
         if (s.turn > 1 && !isHeld_[b]) lastLoads_[b].moment = (result_[b].angularMomentum - states_[b].angularMomentum)/dt_ - newContact_[b].moment;
-        if (!newContact_[b].isZero()) continue;
-        inertia_.drop(b);
-        guess[b] = smoothing_[b] = Load();
+        if (newContact_[b].isZero()) inertia_.drop(b);
+        else guess[b] = isLight[b] ? smooth_->drive()[b] : mean(newContact_[b], contact_[b]);
     }
+    smoothing_ = difference(guess, newContact_);
     states_ = result_;
     contact_ = newContact_;
-    smooth_->accept();
+    smooth_->accept(inFluid, isLight);
     iteration_.setGuess(guess);
 }
 

@@ -39,7 +39,7 @@ public:
     std::string strayBody(double distance) const { return check_.strayBody(predicted_, result_, distance); }
     /// What no contact can do but the last correct() did, in words; empty: nothing. fluidSpeed: the largest there was [m/s].
     std::string brokenContact(double fluidSpeed) const;
-    void accept();
+    void accept(const std::vector<Motion>& inFluid);    ///< the bodies' motions in the last solve
     void reject();
 
     int nBodies() const { return int(setup_.bodies.size()); }

@@ -99,7 +99,11 @@ StepResult CoupledStep::step(double dt)
     }
     PhaseTimer t(timers_, Phase::FlowAssembly);
     fluid_.endStep();
-    if (coupling_) coupling_->accept();
+    if (coupling_)
+    {
+        const std::vector<Motion> motions = fluid_.solidMotions();
+        coupling_->accept({motions.begin() + scene_.nStructures(), motions.end()});
+    }
     wet_ = fluid_.wetFractions();
     result.isAccepted = true;
     return result;

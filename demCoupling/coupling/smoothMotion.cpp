@@ -22,7 +22,7 @@ Vec3 inertiaTimes(const BodyDefinition& body, const BodyState& state, const Vec3
 } // namespace
 
 SmoothMotion::SmoothMotion(const std::vector<BodyDefinition>& bodies, const std::vector<BodyState>& states)
-:   bodies_(bodies), states_(states), found_(states), last_(states.size()), foundStep_(states.size()), drive_(states.size())
+:   bodies_(bodies), states_(states), found_(states), last_(states.size()), foundStep_(states.size()), drive_(states.size()), isTouched_(states.size(), 0)
 {
     for (std::size_t b = 0; b < states.size(); ++b) last_[b].mean = states[b].motion;
 }
@@ -35,7 +35,8 @@ void SmoothMotion::find(const std::vector<BodyState>& before, const std::vector<
         foundStep_[b] = {mean, dt};
         found_[b] = after[b];
         drive_[b] = contact[b];
-        if (!contact[b].isZero())
+        isTouched_[b] = !contact[b].isZero();
+        if (isTouched_[b])
         {
             const double share = dt/(dt + last_[b].dt);
             Motion& smooth = found_[b].motion;
@@ -49,8 +50,14 @@ void SmoothMotion::find(const std::vector<BodyState>& before, const std::vector<
     }
 }
 
-void SmoothMotion::accept()
+void SmoothMotion::accept(const std::vector<Motion>& inFluid, const std::vector<char>& isFound)
 {
+    for (std::size_t b = 0; b < bodies_.size(); ++b)
+    {
+        if (!isTouched_[b] || isFound[b]) continue;
+        found_[b].angularMomentum += inertiaTimes(bodies_[b], found_[b], inFluid[b].angularVelocity - found_[b].motion.angularVelocity);
+        found_[b].motion = inFluid[b];
+    }
     states_ = found_;
     last_ = foundStep_;
 }

@@ -26,7 +26,9 @@ public:
     /// That with fluid and weight leads from states() to what was found; without vibration the contact load [N, N m].
     const std::vector<Load>& drive() const { return drive_; }
 
-    void accept();
+    /// inFluid: the motions that the last solve gave the fluid. Touched bodies go on from them, so that what contact did not converge by is caught up;
+    /// those marked in isFound from what was found.
+    void accept(const std::vector<Motion>& inFluid, const std::vector<char>& isFound);
     void reset(int body, const BodyState& state);   ///< held or let go: no past
 
     /// At t^n: poses as in the engine, smooth velocities and angular momenta.
@@ -44,6 +46,7 @@ private:
     std::vector<BodyState> states_, found_;
     std::vector<Step> last_, foundStep_;    // dt 0: the velocity at the start stands for a mean
     std::vector<Load> drive_;
+    std::vector<char> isTouched_;
 };
 
 } // namespace flotsam

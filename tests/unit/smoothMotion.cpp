@@ -76,7 +76,8 @@ double growth(double addedMass, double w, double beta, bool isSmooth, bool turns
         old = velocity(load);
         meanLoad = load;
         now = now.after(load, w, beta);
-        smooth.accept();
+        const Vec3 inFluid(old, 0, 0);
+        smooth.accept({turns ? Motion{Vec3::Zero(), inFluid} : Motion{inFluid, Vec3::Zero()}}, {false});
         (step < nSteps/5 ? first : last) = std::max(step < nSteps/5 ? first : step < 4*nSteps/5 ? 0 : last, std::abs(now.place));
         if (!(last < 1e3*first) && step >= nSteps/5) break;
     }
@@ -119,7 +120,7 @@ TEST_CASE("untouched bodies move as the engine says, to the last bit")
     smooth.find({before}, {after}, {Load()}, 0.5);
     CHECK(smooth.drive()[0].force.isZero(0));
     CHECK(smooth.drive()[0].moment.isZero(0));
-    smooth.accept();
+    smooth.accept({Motion()}, {false});
     CHECK(smooth.states()[0].motion.velocity == after.motion.velocity);
     CHECK(smooth.states()[0].angularMomentum == after.angularMomentum);
 }
@@ -132,11 +133,11 @@ TEST_CASE("a body that was touched moves as the engine says again one step later
     const BodyState first = Oscillator{0.1, 0.3}.state(true), second = Oscillator{0.2, -0.7}.state(true), third = Oscillator{0.1, -0.7}.state(true);
     SmoothMotion smooth({body}, {first});
     smooth.find({first}, {second}, {Load{Vec3::Zero(), Vec3(1, 0, 0)}}, 0.5);
-    smooth.accept();
+    smooth.accept({Motion{Vec3::Zero(), Vec3(-0.2, 0, 0)}}, {false});
     CHECK(smooth.states()[0].motion.angularVelocity != second.motion.angularVelocity);
     smooth.find({second}, {third}, {Load()}, 0.5);
     CHECK(!smooth.drive()[0].isZero());
-    smooth.accept();
+    smooth.accept({Motion()}, {false});
     CHECK(smooth.states()[0].motion.angularVelocity == third.motion.angularVelocity);
     CHECK(smooth.states()[0].angularMomentum == third.angularMomentum);
     smooth.find({third}, {third}, {Load()}, 0.5);
@@ -152,7 +153,7 @@ TEST_CASE("what is saved goes on the same")
     const Load contact{Vec3(1, 2, 3), Vec3(3, 2, 1)};
     SmoothMotion a({body}, {first}), b({body}, {first});
     a.find({first}, {second}, {contact}, 0.5);
-    a.accept();
+    a.accept({Motion{Vec3(1, 2, 3), Vec3(3, 1, 2)}}, {false});
     b.restore({second}, a.save().data());
     for (SmoothMotion* m : {&a, &b}) m->find({second}, {third}, {contact}, 0.25);
     CHECK(a.drive()[0].force == b.drive()[0].force);
