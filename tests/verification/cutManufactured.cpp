@@ -100,8 +100,13 @@ void checkCouette(const ErrorTable& table)
 } // namespace
 
 TEST_CASE("Stokes around a disc") { checkOrders(aroundBody(2, "Stokes, disc", 1e-3, 1, {16, 32, 64})); }
-/// Meshes on which viscosity rules tau more and more: between its branches the velocity's order is 1.85.
-TEST_CASE("Navier-Stokes around a disc") { checkOrders(aroundBody(2, "Navier-Stokes, disc, mu 0.01", 1, 1e-2, {24, 48, 96})); }
+/// Meshes on which viscosity rules tau more and more: between its branches the velocity's order is 1.88.
+TEST_CASE("Navier-Stokes around a disc")
+{
+    const ErrorTable table = aroundBody(2, "Navier-Stokes, disc, mu 0.01", 1, 1e-2, {24, 48, 96});
+    checkOrders(table);
+    CHECK(table.value("u L2", 1) < 2.76e-3); // with one branch, of order 1.91 from 24 cells to these 48
+}
 TEST_CASE("Stokes around a sphere") { checkOrders(aroundBody(3, "Stokes, sphere", 1e-3, 1, {6, 12, 24})); }
 TEST_CASE("Couette flow between cut cylinders, Stokes") { checkCouette(couette("Annular Couette, Stokes", 1e-3, 1, {16, 32, 64, 96})); }
 TEST_CASE("Couette flow between cut cylinders, Reynolds number 40")

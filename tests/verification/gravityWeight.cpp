@@ -132,7 +132,8 @@ TEST_CASE("the balanced force sums to the weight where the surface is steep, thi
     {
         const double h = dim == 2 ? 1.0/40 : 1.0/20;
         for (double angle : {0., 20., 40., 60., 80., 90.}) check(dim, "plane", angle, 0.015, slab(dim, h, angle, 0));
-        // thinner than the profile's width from both sides the sheet is lighter than between its planes
+        // thinner than the profile's width from both sides the sheet is lighter than between its planes; at 2 h there is no level of one surface
+        // to take the mean over either: up to 16 % (8 % with the level read at the nodes, docs/numerics.md, section 2)
         for (double angle : {0., 40., 80., 90.}) check(dim, "sheet 2h", angle, 0.18, slab(dim, h, angle, 2*h));
         for (double angle : {0., 40., 80., 90.}) check(dim, "sheet 3h", angle, 0.04, slab(dim, h, angle, 3*h));
         for (double angle : {0., 40., 80., 90.}) check(dim, "sheet 5h", angle, 0.03, slab(dim, h, angle, 5*h));

@@ -32,14 +32,16 @@ TEST_CASE("Stokes, moved nodes") { checkVelocity(steadyErrors(2, "Stokes 2D, mov
 /// Meshes on which viscosity rules tau: between its branches the velocity's order is 1.83 (its errors are smaller than with one branch).
 TEST_CASE("Navier-Stokes, mu 0.01")
 {
-    checkAll(steadyErrors(2, "Navier-Stokes 2D, mu 0.01, moved nodes", waves(2), 1, 1e-2, {40, 80, 160}, moved));
+    const ErrorTable table = steadyErrors(2, "Navier-Stokes 2D, mu 0.01, moved nodes", waves(2), 1, 1e-2, {40, 80, 160}, moved);
+    checkAll(table);
+    CHECK(table.value("u L2", 1) < 1.98e-4); // with one branch, of order 1.91 from 40 cells to these 80
 }
 TEST_CASE("Navier-Stokes, mu 1e-4")
 {
     checkAll(steadyErrors(2, "Navier-Stokes 2D, mu 1e-4, moved nodes", waves(2), 1, 1e-4, {14, 28, 56}, moved));
 }
 
-// Not reached: 1.41 (16 to 64), 1.33 (64 to 96). P1 pressure follows the O(h) velocity gradient of irregular triangles.
+// Not reached: 1.39 (16 to 64), 1.28 (64 to 96). P1 pressure follows the O(h) velocity gradient of irregular triangles.
 TEST_CASE("Stokes pressure of order 1.5 on moved nodes" * doctest::skip())
 {
     checkPressure(steadyErrors(2, "Stokes 2D, moved nodes", waves(2), 1e-3, 1, {16, 32, 64, 96}, moved));
