@@ -222,10 +222,7 @@ std::string BodyCoupling::brokenContact(double fluidSpeed) const
 
 bool BodyCoupling::correct(const std::vector<Load>& loads)
 {
-    if (repeats() > 0)
-    {
-        if (inertia_.raise(iteration_.lastChange(), difference(loads, loads_))) iteration_.forget();
-    }
+    if (repeats() > 0 && inertia_.raise(iteration_.lastChange(), difference(loads, loads_))) iteration_.forget();
     loads_ = loads;
     if (!isAtStart_) guarded([&] { engine_->restore(saved_); });
     isAtStart_ = false;

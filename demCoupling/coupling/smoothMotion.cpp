@@ -13,16 +13,21 @@ Motion meanMotion(const BodyState& before, const BodyState& after, double dt)
     return {(after.pose.position - before.pose.position)/dt, turn.axis()*(turn.angle()/dt)};
 }
 
-Vec3 inertiaTimes(const BodyDefinition& body, const BodyState& state, const Vec3& angularVelocity)
+/// The engine's state with another motion. One expression wherever it is needed: a restored run goes on the same to the last bit.
+BodyState withMotion(const BodyDefinition& body, const BodyState& engine, const Motion& motion)
 {
-    const Eigen::Quaterniond& q = state.pose.orientation;
-    return q*(body.principalInertia.cwiseProduct(q.conjugate()*angularVelocity));
+    BodyState state = engine;
+    state.motion = motion;
+    const Vec3 change = motion.angularVelocity - engine.motion.angularVelocity;
+    const Eigen::Quaterniond& q = engine.pose.orientation;
+    if (!change.isZero(0)) state.angularMomentum += q*(body.principalInertia.cwiseProduct(q.conjugate()*change));
+    return state;
 }
 
 } // namespace
 
 SmoothMotion::SmoothMotion(const std::vector<BodyDefinition>& bodies, const std::vector<BodyState>& states)
-:   bodies_(bodies), states_(states), found_(states), last_(states.size()), foundStep_(states.size()), drive_(states.size()), isTouched_(states.size(), 0)
+:   bodies_(bodies), states_(states), engine_(states), found_(states), last_(states.size()), foundStep_(states.size()), drive_(states.size()), isTouched_(states.size(), 0)
 {
     for (std::size_t b = 0; b < states.size(); ++b) last_[b].mean = states[b].motion;
 }
@@ -33,16 +38,15 @@ void SmoothMotion::find(const std::vector<BodyState>& before, const std::vector<
     {
         const Motion mean = meanMotion(before[b], after[b], dt);
         foundStep_[b] = {mean, dt};
-        found_[b] = after[b];
+        engine_[b] = found_[b] = after[b];
         drive_[b] = contact[b];
         isTouched_[b] = !contact[b].isZero();
         if (isTouched_[b])
         {
             const double share = dt/(dt + last_[b].dt);
-            Motion& smooth = found_[b].motion;
-            smooth.velocity = mean.velocity + share*(mean.velocity - last_[b].mean.velocity);
-            smooth.angularVelocity = mean.angularVelocity + share*(mean.angularVelocity - last_[b].mean.angularVelocity);
-            found_[b].angularMomentum += inertiaTimes(bodies_[b], after[b], smooth.angularVelocity - after[b].motion.angularVelocity);
+            const Motion& last = last_[b].mean;
+            found_[b] = withMotion(bodies_[b], after[b], {mean.velocity + share*(mean.velocity - last.velocity),
+                mean.angularVelocity + share*(mean.angularVelocity - last.angularVelocity)});
         }
         // zero, to the last bit, where nothing touched
         drive_[b].force += bodies_[b].mass/dt*((found_[b].motion.velocity - after[b].motion.velocity) - (states_[b].motion.velocity - before[b].motion.velocity));
@@ -54,11 +58,9 @@ void SmoothMotion::accept(const std::vector<Motion>& inFluid, const std::vector<
 {
     for (std::size_t b = 0; b < bodies_.size(); ++b)
     {
-        if (!isTouched_[b] || isFound[b]) continue;
-        found_[b].angularMomentum += inertiaTimes(bodies_[b], found_[b], inFluid[b].angularVelocity - found_[b].motion.angularVelocity);
-        found_[b].motion = inFluid[b];
+        const bool goesOnInFluid = isTouched_[b] && !isFound[b];
+        states_[b] = goesOnInFluid ? withMotion(bodies_[b], engine_[b], inFluid[b]) : found_[b];
     }
-    states_ = found_;
     last_ = foundStep_;
 }
 
@@ -82,17 +84,12 @@ std::vector<double> SmoothMotion::save() const
 
 void SmoothMotion::restore(const std::vector<BodyState>& engine, const double* data)
 {
-    states_ = engine;
     for (std::size_t b = 0; b < bodies_.size(); ++b, data += perBody)
     {
         auto at = [data](int k) { return Vec3(data[3*k], data[3*k + 1], data[3*k + 2]); };
-        const Vec3 change = at(1) - engine[b].motion.angularVelocity;
-        states_[b].motion = {at(0), at(1)};
-        if (!change.isZero(0)) states_[b].angularMomentum += inertiaTimes(bodies_[b], engine[b], change);
+        states_[b] = withMotion(bodies_[b], engine[b], {at(0), at(1)});
         last_[b] = {{at(2), at(3)}, data[12]};
     }
-    found_ = states_;
-    foundStep_ = last_;
 }
 
 } // namespace flotsam

@@ -42,8 +42,8 @@ public:
 private:
     struct Step { Motion mean; double dt = 0; };
 
-    const std::vector<BodyDefinition> bodies_;
-    std::vector<BodyState> states_, found_;
+    std::vector<BodyDefinition> bodies_;
+    std::vector<BodyState> states_, engine_, found_;   // the latter: after the engine's last run
     std::vector<Step> last_, foundStep_;    // dt 0: the velocity at the start stands for a mean
     std::vector<Load> drive_;
     std::vector<char> isTouched_;

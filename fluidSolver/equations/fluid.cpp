@@ -127,7 +127,7 @@ TransportReport Fluid::beginStep(double dt)
     return report;
 }
 
-/// Of the surface's level, in widths: a thousandth of the way that it went in the last time step. Exact at rest, where any other would be a current.
+/// Of the surface's level, in widths: a hundredth of the way that it went in the last time step. Exact at rest, where any other would be a current.
 double Fluid::levelTolerance() const
 {
     constexpr double share = 1e-2, least = 1e-10, most = 1e-2;

@@ -23,8 +23,8 @@ ProfileSlab profileSlab(const DualCells* cells, int i, const double* normal, dou
 /// Distance of every node from the surface [m], positive in the liquid: width ln(alpha/(1-alpha)), alpha limited to [1e-4, 1 - 1e-4], as if alpha were
 /// the profile's value at the node. With cells alpha is its mean over the dual cell, as the transport moves it: the value at the node would let the
 /// surface lag behind or run ahead of what has flowed, by its place between the nodes (docs/numerics.md, section 2). The mean depends on the
-/// surface's direction, the gradient of the result: found by repetition, until nothing changes by more than `tolerance` widths (at most 12 times,
-/// each leaves a quarter). guess: the level of a similar alpha, to begin with. Collective.
+/// surface's direction, the gradient of the result: found by repetition near the surface, at most 12 times (at planes each leaves a quarter), until nothing changes by
+/// more than `tolerance` widths where alpha is 1/2, elsewhere by as much of alpha; nodes that do not converge are not waited for. guess: the level of a similar alpha, to begin with. Collective.
 std::vector<double> surfaceLevel(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& alpha,
     const std::vector<double>& width, const DualCells* cells, const Cover* cover, double tolerance,
     const std::vector<double>* guess = nullptr);

@@ -154,7 +154,7 @@ TEST_CASE("a bar a hundred times lighter than the water, thrown at a stop, is st
     }
     std::printf("light bar: fastest %.3f m/s, deepest overlap %.2e m, contact mismatch %.3f, touching in %d steps\n", fastest, deepest, mismatch, touching);
     CHECK(touching > 10);
-    CHECK(fastest < 2);
+    CHECK(fastest < 1.5); // measured 1.22
     CHECK(deepest < 0.1*side); // the spring takes the bar and its added mass: 0.02 m if it landed on one sphere
 }
 
