@@ -5,6 +5,7 @@
 #include "foam/surfaceFromCells.H"
 
 #include "Time.H"
+#include "fixedValueFvPatchField.H"
 #include "pointMesh.H"
 
 #include <algorithm>
@@ -123,7 +124,8 @@ void exchangeCoupled(Field& field)
         if (boundary[i].coupled()) boundary[i].evaluate(Foam::Pstream::commsTypes::nonBlocking);
 }
 
-/// Patch values are set without evaluating conditions; only coupled (processor) patches exchange their cells' values.
+/// Patch values are set without evaluating conditions; only coupled (processor) patches exchange their cells' values. What a patch prescribes by its
+/// values stays: a run that goes on from the written field reads them.
 template<class Field, class FaceValue>
 void assignPatches(Field& field, FaceValue faceValue)
 {
@@ -131,7 +133,7 @@ void assignPatches(Field& field, FaceValue faceValue)
     auto& boundary = field.boundaryFieldRef();
     forAll(boundary, i)
     {
-        if (boundary[i].coupled()) continue;
+        if (boundary[i].coupled() || boundary[i].type() == Foam::fixedValueFvPatchField<Type>::typeName) continue;
         Foam::Field<Type> values(boundary[i].size());
         const Foam::polyPatch& patch = boundary[i].patch().patch();
         forAll(values, f) values[f] = faceValue(patch[f]);

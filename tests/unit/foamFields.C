@@ -122,6 +122,15 @@ TEST_CASE("written fields keep their boundary dictionaries")
     }).empty());
 }
 
+TEST_CASE("what a patch prescribes by its values stays: a run that goes on reads it")
+{
+    Scene s;
+    s.fields.readStart(s.state); // p_rgh = 2
+    s.fields.update(s.state, nullptr, {});
+    const Foam::label outlet = s.foam.mesh().boundaryMesh().findPatchID("outlet");
+    for (const double p : s.scalar("p_rgh").boundaryField()[outlet]) CHECK(p == 7);
+}
+
 TEST_CASE("solid fraction is the covered volume; inside a solid the velocity is the solid's")
 {
     Scene s;
