@@ -58,7 +58,7 @@ const CoverBuilder::KnownVolume& CoverBuilder::known(const Solid& solid)
     const double tolerance = 1e-6;
     for (const KnownVolume& known : knownVolumes_)
         if (known.shape == solid.shape && (known.direction - direction).norm() < tolerance
-            && std::abs(known.height - height) <= tolerance * std::abs(height))
+            && std::abs(known.height - height) <= tolerance * solid.radius())
             return known;
     const VolumeMoments moments = solid.shape->moments();
     const Section section = mesh_.dim == 3 ? Section{moments.volume, true} : planeSection(*solid.shape, direction, height);

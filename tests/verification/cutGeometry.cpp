@@ -148,6 +148,23 @@ TEST_CASE("the offset makes the cut volume the exact one")
     }
 }
 
+TEST_CASE("2D: the exact volume of a body is that of the first pose, to the last bit, however it turns in the plane")
+{
+    const Scene scene(2, 14);
+    CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+    Solid log = makeSolid(makeUnion({makeCylinder({-0.1, 0, 0}, {0.1, 0, 0}, 0.3), makeCylinder({-0.1, 0, 0.2}, {0.1, 0, 0.2}, 0.3)}), Solid::Kind::Free);
+    const Eigen::Quaterniond upright(Eigen::AngleAxisd(M_PI / 2, Vec3::UnitY()));
+    log.pose.position[2] = 0;
+    log.pose.orientation = upright;
+    const double first = builder.exactVolume(log);
+    for (int step = 1; step <= 100; ++step)
+    {
+        log.pose.position[2] = 1e-17 * step; // round-off
+        log.pose.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(0.1 * step, Vec3::UnitZ())) * upright;
+        CHECK(builder.exactVolume(log) == first);
+    }
+}
+
 // One Newton step a place, from the offset of the last, misses up to 0.22 of the volume.
 TEST_CASE("a body whose parts are one element thick takes its volume with it")
 {
