@@ -10,6 +10,7 @@
 #include "foam/caseCheck.H"
 #include "foam/cellCost.H"
 #include "foam/fieldIO.H"
+#include "foam/writeTimes.H"
 
 #include "io/stopSignal.hpp"
 
@@ -143,6 +144,8 @@ void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         fields.readStart(start);
         step.start(std::move(start), true);
     }
+    runTime.setTime(step.fluid().state().time, runTime.timeIndex()); // OpenFOAM has it from the folder's name
+    WriteTimes writeTimes(runTime, output.firstStart(), step.fluid().state().dt);
     output.begin(step);
     mesh.primitiveMesh::clearAddressing();  // cells, edges and the like that only the start needed; the geometry must stay: fields of the fvMesh are slices of it
     installStopSignals();
@@ -156,14 +159,13 @@ void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
                 + std::to_string(runTime.value()) + " s, below minDeltaT of system/controlDict: "
                 + step.fluid().describeFastest() + ". The solution has become unstable there: look at the last written fields,"
                 " reduce maxCo, or refine the mesh");
-        runTime.setDeltaT(wanted);          // OpenFOAM shortens it to meet write times
-        double used = runTime.deltaTValue();
+        double used = writeTimes.setStep(wanted);
         if (used < 0.999*wanted) limit = "write";
         const double before = used;
         const StepResult result = advance(step, controls.time, used, output);
-        if (used < before) { runTime.setDeltaT(used, false); limit = "retry"; }
+        if (used < before) limit = "retry";
         dt = limit == "write" ? wanted : used;
-        ++runTime;
+        writeTimes.advance(used);
         step.fluid().state().time = runTime.value(); // OpenFOAM's clock, to the last digit
 
         output.record(step, result, limit);

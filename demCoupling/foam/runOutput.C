@@ -43,7 +43,7 @@ RunOutput::RunOutput(const Foam::Time& runTime, const SimplexMesh& mesh, const H
     const PhaseTimers& timers)
 :   runTime_(runTime), mesh_(mesh), halo_(halo), timers_(timers), members_(makeMembers(bodies)),
     log_(timers, runTime.value(), runTime.endTime().value()), forces_(structureNames(bodies)),
-    nStructures_(int(bodies.structures.size()))
+    nStructures_(int(bodies.structures.size())), firstStart_(runTime.value())
 {}
 
 Foam::fileName RunOutput::stateFile() const { return runTime_.timePath()/"flotsamState.h5"; }
@@ -56,10 +56,13 @@ bool RunOutput::readState(CoupledStep& step)
         throw std::runtime_error("restart: flotsamState.h5 is missing on some ranks at time " + runTime_.timeName()
             + "; continue on the number of ranks that wrote it");
     RunState state = readCheckpoint(stateFile(), std::size_t(mesh_.nNodes));
+    // a folder that was given another name is of that time
+    if (Foam::Time::timeName(state.flow.time) != runTime_.timeName()) state.flow.time = runTime_.value();
     mass_ = {state.scalars["initialLiquid"], state.scalars["inflow"], state.scalars["outflow"], 0};
     steps_ = firstStep_ = long(state.scalars["steps"]);
     redistributed_ = state.scalars["redistributed"];
     timeStep_ = state.scalars["timeStep"];
+    firstStart_ = state.scalars["firstStart"];
     largestOverlap_ = state.scalars["largestOverlap"];
     forces_.restore(state.arrays["forces"]);
     step.restore(std::move(state.flow), state.arrays);
@@ -135,7 +138,8 @@ void RunOutput::writeState(const CoupledStep& step, double timeStep)
     state.arrays = step.save();
     state.arrays["forces"] = forces_.values();
     state.scalars = {{"initialLiquid", mass_.initial}, {"inflow", mass_.inflow}, {"outflow", mass_.outflow},
-        {"steps", double(steps_)}, {"redistributed", redistributed_}, {"timeStep", timeStep}, {"largestOverlap", largestOverlap_}};
+        {"steps", double(steps_)}, {"redistributed", redistributed_}, {"timeStep", timeStep}, {"firstStart", firstStart_},
+        {"largestOverlap", largestOverlap_}};
     writeCheckpoint(stateFile(), state);
     if (!history_) return;
     history_->flush();

@@ -18,7 +18,7 @@ namespace
 {
 
 const std::string magic = "flotsam checkpoint";
-constexpr std::int64_t formatVersion = 1;
+constexpr std::int64_t formatVersion = 2;
 
 using Field = std::vector<double> FlowState::*;
 struct NamedField { const char* name; Field field; };
@@ -98,8 +98,8 @@ void checkHeader(const Hdf5File& in, const std::string& file)
     const auto version = in.integerAttribute("/", "formatVersion");
     if (version != formatVersion)
     {
-        throw std::runtime_error(file + ": checkpoint format " + std::to_string(version) + ", this program reads format "
-            + std::to_string(formatVersion));
+        throw std::runtime_error(file + ": written by another version of flotsamFoam (format " + std::to_string(version) + ", this one reads "
+            + std::to_string(formatVersion) + "). Go on with that version, or remove the file to start from the volume fields beside it");
     }
     if (!in.hasAttribute("/", "complete") || in.integerAttribute("/", "complete") != 1)
     {

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "foam/writeTimes.H"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flotsam
+{
+
+namespace
+{
+
+/// What the clock knows of write times is protected; a derived class may name it.
+struct ClockAccess : Foam::Time
+{
+    static bool isAdjusted(const Foam::Time& t) { return t.*&ClockAccess::writeControl_ == wcAdjustableRunTime; }
+    static bool isCounted(const Foam::Time& t) { return isAdjusted(t) || t.*&ClockAccess::writeControl_ == wcRunTime; }
+    static double interval(const Foam::Time& t) { return t.*&ClockAccess::writeInterval_; }
+    /// Number of the last write time of this run: the clock is at one after a step when the number has grown.
+    static Foam::label& written(Foam::Time& t) { return t.*&ClockAccess::writeTimeIndex_; }
+};
+
+/// Number of write times from `first` to `time`, as Time counts them: one less than half a step ahead has come.
+double count(const Foam::Time& clock, double first, double time, double step)
+{
+    return std::floor((time - first + 0.5*step)/ClockAccess::interval(clock));
+}
+
+} // namespace
+
+WriteTimes::WriteTimes(Foam::Time& clock, double first, double lastStep)
+:   clock_(clock), first_(first), time_(clock.value()), lastStep_(lastStep)
+{}
+
+double WriteTimes::setStep(double wanted)
+{
+    double step = wanted;
+    if (ClockAccess::isAdjusted(clock_))
+    {
+        const double left = first_ + (count(clock_, first_, time_, lastStep_) + 1)*ClockAccess::interval(clock_) - time_;
+        step = left/std::max(1.0, std::round(left/wanted));
+    }
+    clock_.setDeltaT(step, false);
+    clock_.functionObjects().adjustTimeStep();
+    return clock_.deltaTValue();
+}
+
+void WriteTimes::advance(double step)
+{
+    clock_.setDeltaT(step, false);
+    if (ClockAccess::isCounted(clock_))
+    {
+        const bool isDue = count(clock_, first_, time_ + step, step) > count(clock_, first_, time_, lastStep_);
+        ClockAccess::written(clock_) = isDue ? -1 : Foam::labelMax;
+        ++clock_;
+        ClockAccess::written(clock_) = 0; // a changed interval multiplies it
+    }
+    else ++clock_;
+    time_ = clock_.value();
+    lastStep_ = step;
+}
+
+} // namespace flotsam

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Write times and the steps that meet them: those of OpenFOAM, and the same in a run that goes on.
+#include "foam/writeTimes.H"
+#include "support/foamCase.H"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace flotsam;
+
+namespace
+{
+
+constexpr double interval = 0.1, begin = 0.23, shortest = 0.03, longest = 0.05;
+
+struct Record
+{
+    double time, step;
+    bool isWriteTime;
+    bool operator==(const Record& r) const { return time == r.time && step == r.step && isWriteTime == r.isWriteTime; }
+};
+
+/// A run of steps that want to be `shortest` to `longest`, from `first` on or from what an earlier one has recorded.
+class Run
+{
+public:
+    explicit Run(const std::string& control, const std::vector<Record>& past = {}, const std::string& stopAt = "endTime")
+    :   clock_(parse("startFrom startTime; startTime " + Foam::name(past.empty() ? begin : past.back().time) + "; stopAt " + stopAt
+            + "; endTime 10; deltaT 1; writeControl " + control + "; writeInterval " + Foam::name(interval) + "; timePrecision 17;"),
+            ".", ".", "system", "constant", false, false),
+        records_(past)
+    {
+        if (!past.empty()) clock_.setTime(past.back().time, Foam::label(past.size()));
+        times_ = std::make_unique<WriteTimes>(clock_, begin, past.empty() ? 0 : past.back().step);
+    }
+
+    std::vector<Record> to(std::size_t nSteps)
+    {
+        while (records_.size() < nSteps && clock_.value() < clock_.endTime().value() - 0.5*clock_.deltaTValue()) // Time::run() without function objects
+        {
+            times_->advance(times_->setStep(0.5*(shortest + longest) + 0.5*(longest - shortest)*std::sin(double(records_.size()))));
+            records_.push_back({clock_.value(), clock_.deltaTValue(), clock_.writeTime()});
+        }
+        return records_;
+    }
+
+private:
+    Foam::Time clock_;
+    std::unique_ptr<WriteTimes> times_;
+    std::vector<Record> records_;
+};
+
+}
+
+TEST_CASE("a run that goes on from any step makes the same steps and meets the same write times, to the last bit")
+{
+    for (const char* control : {"adjustableRunTime", "runTime"})
+    {
+        CAPTURE(control);
+        Run whole(control);
+        const std::vector<Record> records = whole.to(60);
+        for (std::size_t stop = 1; stop < 50; ++stop)
+        {
+            CAPTURE(stop);
+            CHECK(Run(control, {records.begin(), records.begin() + stop}).to(60) == records);
+        }
+    }
+}
+
+TEST_CASE("adjusted steps end at the write times, others beside them; each counts once")
+{
+    int nAdjusted = 0, nNearest = 0;
+    for (const Record& r : Run("adjustableRunTime").to(100))
+    {
+        CHECK(r.step < 1.5*longest);
+        if (r.isWriteTime) CHECK(r.time == doctest::Approx(begin + ++nAdjusted*interval).epsilon(1e-12));
+    }
+    for (const Record& r : Run("runTime").to(100))
+        if (r.isWriteTime) CHECK(std::abs(r.time - (begin + ++nNearest*interval)) <= longest - 0.5*shortest);
+    CHECK(nAdjusted > 30);
+    CHECK(nNearest > 30);
+}
+
+TEST_CASE("a run that ends at the next write time ends at one")
+{
+    const std::vector<Record> past = Run("adjustableRunTime").to(4), records = Run("adjustableRunTime", past, "nextWrite").to(100);
+    CHECK(records.size() < 10);
+    CHECK(records.back().isWriteTime);
+}
