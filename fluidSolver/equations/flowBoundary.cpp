@@ -2,7 +2,9 @@
 /// Boundary conditions on the mesh's patches: prescribed directions, open boundaries.
 #include "equations/flowEquation.hpp"
 
-#include "geometry/cutSimplex.hpp"
+#include "core/patchFaces.hpp"
+#include "equations/faceMoments.hpp"
+#include "equations/slipNormals.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,148 +12,6 @@
 
 namespace flotsam
 {
-
-namespace
-{
-
-constexpr double sameNormal = 0.9; // cosine above which two slip faces at a node belong to one smooth wall
-
-/// Area vector of a patch face (outward), dim components.
-void faceVector(const SimplexMesh& mesh, const int* nodes, double* v)
-{
-    const double* x = mesh.x.data();
-    if (mesh.dim == 2)
-    {
-        const double *a = x + 2*nodes[0], *b = x + 2*nodes[1];
-        v[0] = b[1] - a[1];
-        v[1] = a[0] - b[0];
-        return;
-    }
-    double e[2][3];
-    for (int k = 0; k < 2; ++k)
-        for (int d = 0; d < 3; ++d) e[k][d] = x[3*nodes[k + 1] + d] - x[3*nodes[0] + d];
-    for (int d = 0; d < 3; ++d)
-        v[d] = 0.5*(e[0][(d + 1) % 3]*e[1][(d + 2) % 3] - e[0][(d + 2) % 3]*e[1][(d + 1) % 3]);
-}
-
-/// Area vector pointing away from the element behind the face.
-void outwardVector(const SimplexMesh& mesh, const MeshPatch& patch, std::size_t f, double* v)
-{
-    const int dim = mesh.dim;
-    const int* nodes = &patch.faceNodes[f*dim];
-    faceVector(mesh, nodes, v);
-    const int* element = &mesh.elements[std::size_t(patch.faceElement[f])*(dim + 1)];
-    double inward = 0;
-    for (int a = 0; a <= dim; ++a)
-        for (int d = 0; d < dim; ++d)
-            inward += v[d]*(mesh.x[std::size_t(element[a])*dim + d] - mesh.x[std::size_t(nodes[0])*dim + d]);
-    if (inward > 0) for (int d = 0; d < dim; ++d) v[d] = -v[d];
-}
-
-/// int N_k N_l over the fluid part of a face, over the face's area (shape functions of the face itself).
-template<int D>
-struct FaceMoments
-{
-    double second[D*D], first[D];
-
-    FaceMoments(const Cover* cover, const int* nodes)
-    {
-        double distance[D];
-        int nSolid = 0;
-        for (int k = 0; k < D; ++k)
-        {
-            distance[k] = cover ? cover->distance[nodes[k]] : farDistance;
-            nSolid += distance[k] < 0;
-        }
-        if (nSolid == 0) fill(1);
-        else if (nSolid == D) fill(0);
-        else integrateCut(distance);
-        for (int k = 0; k < D; ++k)
-        {
-            first[k] = 0;
-            for (int l = 0; l < D; ++l) first[k] += second[k*D + l];
-        }
-    }
-
-private:
-    void fill(double share)
-    {
-        for (int k = 0; k < D; ++k)
-            for (int l = 0; l < D; ++l) second[k*D + l] = share*(k == l ? 2. : 1.)/(D*(D + 1));
-    }
-
-    void integrateCut(const double* distance)
-    {
-        if constexpr (D == 3)
-        {
-            constexpr double vertices[6] = {0, 0, 1, 0, 0, 1}, gradN[6] = {-1, -1, 1, 0, 0, 1};
-            const SimplexCut<2> cut = cutSimplex<2>(distance, 0.5, vertices, gradN);
-            for (int m = 0; m < 9; ++m) second[m] = 2*cut.second[m];
-        }
-        else
-        {
-            // the edge from its fluid end, of which the part s in [0, t] is fluid: N = 1 - s there, s at the other end
-            const int fluid = distance[0] > 0 ? 0 : 1, solid = 1 - fluid;
-            const double t = distance[fluid]/(distance[fluid] - distance[solid]);
-            second[fluid*2 + fluid] = (1 - (1 - t)*(1 - t)*(1 - t))/3;
-            second[solid*2 + solid] = t*t*t/3;
-            second[1] = second[2] = t*t/2 - t*t*t/3;
-        }
-    }
-};
-
-/// Normals of the slip faces at one node, grouped into smooth walls.
-struct SlipNormals
-{
-    std::vector<std::array<double, 3>> sums;
-
-    void add(const double* v, int dim)
-    {
-        double size = 0;
-        for (int d = 0; d < dim; ++d) size += v[d]*v[d];
-        size = std::sqrt(size);
-        for (auto& s : sums)
-        {
-            double dot = 0, length = 0;
-            for (int d = 0; d < dim; ++d) { dot += s[d]*v[d]; length += s[d]*s[d]; }
-            if (std::abs(dot) > sameNormal*size*std::sqrt(length))
-            {
-                for (int d = 0; d < dim; ++d) s[d] += dot > 0 ? v[d] : -v[d];
-                return;
-            }
-        }
-        std::array<double, 3> s{};
-        std::copy(v, v + dim, s.begin());
-        sums.push_back(s);
-    }
-
-    /// Orthonormal directions (Gram-Schmidt).
-    NodeConstraint constraint(int node, int dim) const
-    {
-        NodeConstraint c{};
-        c.node = node;
-        for (std::array<double, 3> s : sums)
-        {
-            double size = 0;
-            for (int d = 0; d < dim; ++d) size += s[d]*s[d];
-            const double whole = std::sqrt(size);
-            for (int k = 0; k < c.nDirections; ++k)
-            {
-                double along = 0;
-                for (int d = 0; d < dim; ++d) along += s[d]*c.direction[k][d];
-                for (int d = 0; d < dim; ++d) s[d] -= along*c.direction[k][d];
-            }
-            size = 0;
-            for (int d = 0; d < dim; ++d) size += s[d]*s[d];
-            if (std::sqrt(size) < 0.1*whole || c.nDirections == dim) continue;
-            for (int d = 0; d < dim; ++d) c.direction[c.nDirections][d] = s[d]/std::sqrt(size);
-            ++c.nDirections;
-        }
-        return c;
-    }
-};
-
-} // namespace
 
 void FlowEquation::buildConstraints()
 {
@@ -164,11 +24,19 @@ void FlowEquation::buildConstraints()
         if (p.pressure != BoundaryPatch::Pressure::Natural) for (int i : p.nodes) isPressureFixed[i] = 1;
         if (p.velocity != BoundaryPatch::Velocity::Slip) continue;
         const MeshPatch& patch = mesh_.patches[p.meshPatch];
-        double v[3];
         for (std::size_t f = 0; f < patch.faceElement.size(); ++f)
         {
+            const int* nodes = &patch.faceNodes[f*dim];
+            double v[3];
             outwardVector(mesh_, patch, f, v);
-            for (int k = 0; k < dim; ++k) slip[patch.faceNodes[f*dim + k]].add(v, dim);
+            for (int k = 0; k < dim; ++k)
+            {
+                double place[3] = {};
+                for (int l = 0; l < dim; ++l)
+                    for (int d = 0; d < dim; ++d)
+                        place[d] += (mesh_.x[std::size_t(nodes[l])*dim + d] - mesh_.x[std::size_t(nodes[k])*dim + d])/dim;
+                slip[nodes[k]].addFace(v, place, dim);
+            }
         }
     }
     for (int i = 0; i < mesh_.nNodes; ++i)
@@ -180,8 +48,15 @@ void FlowEquation::buildConstraints()
         for (int d = 0; d < dim; ++d) c.direction[d][d] = 1;
         constraints_.push_back(c);
     }
+    std::vector<int> isEdge(mesh_.nNodes, 0);
     for (const auto& [node, normals] : slip)
-        if (!isFixed[node]) constraints_.push_back(normals.constraint(node, dim));
+    {
+        if (isFixed[node]) continue;
+        constraints_.push_back(normals.constraint(node, dim));
+        isEdge[node] = normals.hasEdge();
+    }
+    halo_.update(isEdge, 1);    // second-ring copies do not see all of their faces
+    isSlipEdge_.assign(isEdge.begin(), isEdge.end());
     for (const NodeConstraint& c : constraints_)
         if (c.node < mesh_.nOwned) system_.constraints.push_back(c);
     std::vector<double> flags(isPressureFixed.begin(), isPressureFixed.end());

@@ -63,6 +63,7 @@ void FlowEquation::assemble(const FlowStepData& step)
     {
         assembleElements<2>();
         assembleOpenBoundaries<2>();
+        assembleSlipEdges<2>();
         assembleGasEdge<2>();
         assembleWalls<2>();
         removeMassDefect<2>();
@@ -72,6 +73,7 @@ void FlowEquation::assemble(const FlowStepData& step)
     {
         assembleElements<3>();
         assembleOpenBoundaries<3>();
+        assembleSlipEdges<3>();
         assembleGasEdge<3>();
         assembleWalls<3>();
         removeMassDefect<3>();

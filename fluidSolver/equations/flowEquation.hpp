@@ -64,6 +64,8 @@ private:
     template<int D> void assembleWalls();
     template<int D> void assembleGhosts();
     template<int D> void assembleOpenBoundaries();
+    template<int D> void assembleSlipEdges();
+    template<int D> void addSlipFace(const MeshPatch& faces, std::size_t f);
     template<int D> void addOpenFace(const int* nodes, const double* v, const double* first, const double* second, const double* pressure);
     template<int D> void assembleGasEdge();
     void fixGasEdge();
@@ -91,6 +93,7 @@ private:
     std::vector<char> carriesMass_, isOpen_;    // nodes of varying elements; nodes on open patches
     std::vector<char> isPatchPressureFixed_;    // nNodes: by a patch
     double gasLevel_ = 0;                       // of the gas at rest's pressure [Pa]
+    std::vector<char> isSlipEdge_;              // nNodes: on a re-entrant edge of slip patches, see SlipNormals
     std::vector<NodeConstraint> constraints_;   // all local nodes; directions from the slip patches
 };
 

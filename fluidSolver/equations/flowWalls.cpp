@@ -157,17 +157,10 @@ void FlowEquation::assembleWalls()
                     slipVelocity += group.m1[a]/group.area*(nodal_.advection[std::size_t(i)*D + k] - ubar)*group.normal[k];
                 }
             }
-            const double h = mesh_.h[group.element];
-            double speed = 0;
-            for (int d = 0; d < D; ++d) speed += data.advection[d]*data.advection[d];
-            WallCoefficients c;
+            WallCoefficients c = nitscheCoefficients(data, controls_.nitscheGamma, mesh_.h[group.element], step_.time.dt, slipVelocity);
             c.isNitsche = controls_.nitsche;
+            if (!controls_.nitsche) c.tangential = controls_.penalty;
             c.isSlip = solid.wall == Solid::Wall::Slip;
-            c.mu = data.mu;
-            c.tangential = controls_.nitsche
-                ? controls_.nitscheGamma*data.mu/h + data.rho*std::max(0.0, -slipVelocity)
-                : controls_.penalty;
-            c.normal = 0.1*data.rho*(h/step_.time.dt + std::sqrt(speed));
             c.convection = 0.5*wallDensity*wallNormalVelocity;
             double m[B*B];
             for (int a = 0; a < N; ++a)

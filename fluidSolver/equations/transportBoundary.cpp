@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "equations/transportBoundary.hpp"
 
+#include "core/patchFaces.hpp"
+
 #include <algorithm>
 
 namespace flotsam
@@ -26,17 +28,15 @@ void TransportBoundary::addGivenVelocity(const std::vector<double>& u, const std
         for (std::size_t f = 0; f < patch.faceElement.size(); ++f)
         {
             const int* face = &patch.faceNodes[f*dim];
-            const int e = patch.faceElement[f];
-            const int* nodes = &mesh_.elements[std::size_t(e)*n];
-            const auto opposite = std::find_if(nodes, nodes + n, [&](int i) { return std::find(face, face + dim, i) == face + dim; }) - nodes;
-            const double* g = &mesh_.gradN[(std::size_t(e)*n + opposite)*dim];
-            double through[3], sum = 0;     // S.u per node, S = -dim V grad N
+            double area[3];
+            outwardVector(mesh_, patch, f, area);
+            double through[3], sum = 0;     // S.u per node
             for (int a = 0; a < dim; ++a)
             {
                 through[a] = 0;
                 for (int d = 0; d < dim; ++d)
                 {
-                    through[a] -= dim*mesh_.volume[e]*g[d]*u[std::size_t(face[a])*dim + d];
+                    through[a] += area[d]*u[std::size_t(face[a])*dim + d];
                 }
                 sum += through[a];
             }

@@ -10,6 +10,11 @@
 /// columns follow by transport of the nodal values: action equals reaction to round-off.
 #pragma once
 
+#include "equations/elementTerms.hpp"
+
+#include <algorithm>
+#include <cmath>
+
 namespace flotsam
 {
 
@@ -22,6 +27,20 @@ struct WallCoefficients
     double normal;          ///< additional factor of ([u].n)([w].n) [Pa s/m]
     double convection;      ///< 1/2 rho (ubar.n): boundary part of the skew-symmetric convection, on u.w
 };
+
+/// Of the Nitsche condition, without the surface's convection. dt [s]; outflow: (a - ubar).n, mean over the facet [m/s].
+template<int D>
+inline WallCoefficients nitscheCoefficients(const ElementData<D>& e, double gamma, double h, double dt, double outflow)
+{
+    double speed = 0;
+    for (int d = 0; d < D; ++d) speed += e.advection[d]*e.advection[d];
+    WallCoefficients c{};
+    c.isNitsche = true;
+    c.mu = e.mu;
+    c.tangential = gamma*e.mu/h + e.rho*std::max(0.0, -outflow);
+    c.normal = 0.1*e.rho*(h/dt + std::sqrt(speed));
+    return c;
+}
 
 /// block (a,b) of the jumps for one facet group. m1 = int N_a, m2 = int N_a N_b over the facet; N = D+1 nodes.
 template<int D>

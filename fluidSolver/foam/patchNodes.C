@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam/patchNodes.H"
 
+#include "core/patchFaces.hpp"
+
 #include "SubField.H"
 #include "polyPatch.H"
 
@@ -12,34 +14,6 @@ namespace flotsam
 
 namespace
 {
-
-/// Area vector of face f of the patch, pointing out of the domain [m^(dim-1)].
-void areaVector(const SimplexMesh& mesh, const MeshPatch& patch, std::size_t f, double* a)
-{
-    const int* n = &patch.faceNodes[f*mesh.dim];
-    const double* x0 = &mesh.x[n[0]*mesh.dim];
-    const double* x1 = &mesh.x[n[1]*mesh.dim];
-    if (mesh.dim == 2)
-    {
-        a[0] = x1[1] - x0[1];
-        a[1] = x0[0] - x1[0];
-        // the side away from the third node of the element is outside, whichever way the edge is listed
-        const int* element = &mesh.elements[patch.faceElement[f]*3];
-        for (int k = 0; k < 3; ++k)
-        {
-            if (element[k] == n[0] || element[k] == n[1]) continue;
-            const double* x = &mesh.x[element[k]*2];
-            if (a[0]*(x[0] - x0[0]) + a[1]*(x[1] - x0[1]) > 0) a[0] = -a[0], a[1] = -a[1];
-        }
-        return;
-    }
-    const double* x2 = &mesh.x[n[2]*mesh.dim];
-    const double p[3] = {x1[0] - x0[0], x1[1] - x0[1], x1[2] - x0[2]};
-    const double q[3] = {x2[0] - x0[0], x2[1] - x0[1], x2[2] - x0[2]};
-    a[0] = 0.5*(p[1]*q[2] - p[2]*q[1]);
-    a[1] = 0.5*(p[2]*q[0] - p[0]*q[2]);
-    a[2] = 0.5*(p[0]*q[1] - p[1]*q[0]);
-}
 
 /// Owned nodes know all faces of the patch that hold them; the halo copies learn it from their owners.
 std::vector<int> nodesOf(const SimplexMesh& mesh, const Halo& halo, const MeshPatch& patch)
@@ -60,7 +34,7 @@ std::vector<double> normalsOf(const SimplexMesh& mesh, const Halo& halo, const M
     for (std::size_t f = 0; f < patch.faceElement.size(); ++f)
     {
         double a[3];
-        areaVector(mesh, patch, f, a);
+        outwardVector(mesh, patch, f, a);
         for (int k = 0; k < dim; ++k)
             for (int d = 0; d < dim; ++d) sum[patch.faceNodes[f*dim + k]*dim + d] += a[d];
     }
@@ -88,7 +62,7 @@ PatchNodes makePatchNodes(const SimplexMesh& mesh, const Halo& halo, const MeshP
     {
         if (!patch.isOwnedFace[f]) continue;
         double a[3];
-        areaVector(mesh, patch, f, a);
+        outwardVector(mesh, patch, f, a);
         for (int d = 0; d < mesh.dim; ++d) result.faceArea.push_back(a[d]*(mesh.dim == 2 ? mesh.thickness : 1.0));
         for (int k = 0; k < mesh.dim; ++k)
         {

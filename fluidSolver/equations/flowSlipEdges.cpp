@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Slip patches at re-entrant edges, whose nodes have no normal: the wall holds the fluid weakly there.
+#include "core/patchFaces.hpp"
+#include "equations/elementLoader.hpp"
+#include "equations/faceMoments.hpp"
+#include "equations/flowEquation.hpp"
+#include "equations/wallTerms.hpp"
+
+#include <cmath>
+
+namespace flotsam
+{
+
+/// The terms of a slip wall (wallTerms.hpp) on every face that has a node of a re-entrant edge. At the face's other nodes the normal velocity is prescribed
+/// and these terms vanish. No volume passes through the face: the continuity rows lose int q u.n.
+template<int D>
+void FlowEquation::assembleSlipEdges()
+{
+    for (const BoundaryPatch& patch : patches_)
+    {
+        if (patch.velocity != BoundaryPatch::Velocity::Slip) continue;
+        const MeshPatch& faces = mesh_.patches[patch.meshPatch];
+        for (std::size_t f = 0; f < faces.faceElement.size(); ++f)
+        {
+            const int* nodes = &faces.faceNodes[f*D];
+            const bool hasEdge = std::any_of(nodes, nodes + D, [&](int i) { return isSlipEdge_[i]; });
+            if (hasEdge && faces.faceElement[f] < mesh_.nInnerElements) addSlipFace<D>(faces, f);
+        }
+    }
+}
+
+template<int D>
+void FlowEquation::addSlipFace(const MeshPatch& faces, std::size_t f)
+{
+    constexpr int N = D + 1, B = D + 1;
+    ElementData<D> data;
+    const int e = faces.faceElement[f];
+    if (!loadElement<D>(e, data)) return;
+    const int* nodes = &mesh_.elements[std::size_t(e)*N];
+    double normal[3], area = 0, outflow = 0;
+    outwardVector(mesh_, faces, f, normal);
+    for (int d = 0; d < D; ++d) area += normal[d]*normal[d];
+    area = std::sqrt(area);
+    for (int d = 0; d < D; ++d) normal[d] /= area;
+    const FaceMoments<D> moments(step_.cover, &faces.faceNodes[f*D]);
+    int corner[D];  // of the element, for each of the face's nodes
+    for (int k = 0; k < D; ++k)
+    {
+        corner[k] = int(std::find(nodes, nodes + N, faces.faceNodes[f*D + k]) - nodes);
+        for (int d = 0; d < D; ++d) outflow += moments.first[k]*nodal_.advection[std::size_t(nodes[corner[k]])*D + d]*normal[d];
+    }
+    double first[N] = {}, second[N*N] = {};
+    for (int k = 0; k < D; ++k)
+    {
+        first[corner[k]] = area*moments.first[k];
+        for (int l = 0; l < D; ++l) second[corner[k]*N + corner[l]] = area*moments.second[k*D + l];
+    }
+    WallCoefficients c = nitscheCoefficients(data, controls_.nitscheGamma, mesh_.h[e], step_.time.dt, outflow);
+    c.isSlip = true;
+    double m[B*B];
+    for (int a = 0; a < N; ++a)
+    {
+        if (nodes[a] >= mesh_.nOwned) continue;
+        for (int b = 0; b < N; ++b)
+        {
+            wallBlock<D>(c, normal, data.gradN, first[a], first[b], second[a*N + b], a, b, m);
+            system_.matrix.add<D>(graph_.slot(nodes[a], (std::size_t(e)*N + a)*N + b), m);
+        }
+    }
+}
+
+template void FlowEquation::assembleSlipEdges<2>();
+template void FlowEquation::assembleSlipEdges<3>();
+
+} // namespace flotsam

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What the faces of slip patches prescribe at one node.
+#pragma once
+
+#include "algebra/flowSystem.hpp"
+
+#include <array>
+#include <vector>
+
+namespace flotsam
+{
+
+/// Walls are faces of nearly the same direction. Where two of them meet in a re-entrant edge (the fluid fills more than 180 degrees, as at the rim
+/// of a box that is left out of the mesh) their normals together would hold the whole velocity of the node, though fluid streams past the edge;
+/// no normal of its own is right there either. Such walls prescribe nothing at the node, FlowEquation::assembleSlipEdges() holds them weakly.
+class SlipNormals
+{
+public:
+    /// v: area vector of a face at the node, out of the fluid; place: the face's centre seen from the node. dim values each.
+    void addFace(const double* v, const double* place, int dim);
+
+    /// Whether walls meet in a re-entrant edge here.
+    bool hasEdge() const;
+
+    /// Orthonormal directions of the walls that are not at a re-entrant edge.
+    NodeConstraint constraint(int node, int dim) const;
+
+private:
+    struct Wall
+    {
+        std::array<double, 3> area{}, place{};  // sums over its faces
+    };
+
+    static bool isOutside(const Wall& wall, const Wall& other);
+    bool isAtEdge(const Wall& wall) const;
+
+    std::vector<Wall> walls_;
+};
+
+} // namespace flotsam

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Which directions slip patches prescribe at a node where they meet.
+#include "equations/slipNormals.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace flotsam;
+
+namespace
+{
+
+/// A face with outward normal n whose centre lies at p from the node.
+struct Face
+{
+    double n[3], p[3];
+};
+
+SlipNormals normalsOf(const std::vector<Face>& faces, int dim)
+{
+    SlipNormals normals;
+    for (const Face& face : faces) normals.addFace(face.n, face.p, dim);
+    return normals;
+}
+
+} // namespace
+
+TEST_CASE("walls of a tank hold the velocity in each of their normals")
+{
+    const SlipNormals edge = normalsOf({{{0, -1}, {1, 0}}, {{-1, 0}, {0, 1}}}, 2);
+    CHECK(!edge.hasEdge());
+    CHECK(edge.constraint(7, 2).nDirections == 2);
+    CHECK(edge.constraint(7, 2).node == 7);
+    const SlipNormals corner = normalsOf({{{0, 0, -1}, {1, 1, 0}}, {{-1, 0, 0}, {0, 1, 1}}, {{0, -1, 0}, {1, 0, 1}}}, 3);
+    CHECK(!corner.hasEdge());
+    CHECK(corner.constraint(0, 3).nDirections == 3);
+}
+
+TEST_CASE("the rim of a box holds nothing, its foot only what the floor holds")
+{
+    const Face top{{0, 0, -1}, {-1, 0, 0}}, front{{-1, 0, 0}, {0, 0, -1}};
+    CHECK(normalsOf({top, front}, 3).hasEdge());
+    CHECK(normalsOf({top, front}, 3).constraint(0, 3).nDirections == 0);
+    const Face side{{0, -1, 0}, {-1, 0, -1}}, frontBesideSide{{-1, 0, 0}, {0, -1, -1}}, topBehind{{0, 0, -1}, {-1, -1, 0}};
+    CHECK(normalsOf({side, frontBesideSide, topBehind}, 3).constraint(0, 3).nDirections == 0);
+    const Face floor{{0, 0, -1}, {1, 0, 0}}, frontUp{{-1, 0, 0}, {0, -1, 1}}, sideUp{{0, -1, 0}, {-1, 0, 1}};
+    const NodeConstraint foot = normalsOf({floor, frontUp, sideUp}, 3).constraint(0, 3);
+    CHECK(foot.nDirections == 1);
+    CHECK(foot.direction[0][2] == doctest::Approx(-1));
+}
+
+TEST_CASE("faces of one smooth wall have one normal, its sides too")
+{
+    const double c = std::cos(0.2), s = std::sin(0.2);
+    const SlipNormals pipe = normalsOf({{{s, c}, {-1, 0.1}}, {{-s, c}, {1, 0.1}}}, 2);
+    CHECK(!pipe.hasEdge());
+    CHECK(pipe.constraint(0, 2).nDirections == 1);
+    CHECK(std::abs(pipe.constraint(0, 2).direction[0][0]) < 1e-15);
+    const SlipNormals baffle = normalsOf({{{0, 1}, {1, 1e-17}}, {{0, -1}, {-1, -1e-17}}}, 2);
+    CHECK(!baffle.hasEdge());
+    CHECK(baffle.constraint(0, 2).nDirections == 1);
+}
