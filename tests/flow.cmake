@@ -5,6 +5,7 @@ flotsam_test(tankAtRest verification SOURCES verification/tankAtRest.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(slipEdge verification SOURCES verification/slipEdge.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
+flotsam_test(liquidShares unit SOURCES unit/liquidShares.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(slipNormals unit SOURCES unit/slipNormals.cpp LIBRARIES flotsam_equations)
 flotsam_test(gasDepth verification SOURCES verification/gasDepth.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)

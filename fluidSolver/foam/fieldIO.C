@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam/fieldIO.H"
+#include "equations/liquidShares.hpp"
 #include "foam/boundaryReader.H"
+#include "foam/cellMeans.H"
 #include "foam/dictionaryChecks.H"
 #include "foam/surfaceFromCells.H"
 
@@ -78,36 +80,6 @@ void readSurface(const MeshAdapter& adapter, const Halo& halo, const Foam::scala
             state.startLiquid += fraction[c]*adapter.mesh.volume[adapter.cellElements[k]];
     state.startLiquid = halo.sum(state.startLiquid);
     reconstructSurface(adapter, halo, fraction, state.alpha);
-}
-
-/// Means of the nodal values over the fluid part of the simplices of a cell; over all of it where no fluid is (then false).
-bool cellMean(const MeshAdapter& adapter, const Cover* cover, const std::vector<double>& nodal, int cell, double* mean)
-{
-    const SimplexMesh& mesh = adapter.mesh;
-    const int n = mesh.dim + 1;
-    for (const bool fluidOnly : {true, false})
-    {
-        double volume = 0;
-        std::fill_n(mean, nodalWidth, 0.0);
-        for (int k = adapter.cellStart[cell]; k < adapter.cellStart[cell + 1]; ++k)
-        {
-            const int e = adapter.cellElements[k];
-            const ElementState state = cover && fluidOnly ? cover->state[e] : ElementState::Fluid;
-            if (state == ElementState::Solid) continue;
-            const CutElement* cut = state == ElementState::Cut ? &cover->cuts[cover->cutIndex[e]] : nullptr;
-            volume += cut ? cut->volume : mesh.volume[e];
-            for (int a = 0; a < n; ++a)
-            {
-                const double weight = cut ? cut->first[a] : mesh.volume[e]/n;
-                const double* v = &nodal[static_cast<std::size_t>(mesh.elements[e*n + a])*nodalWidth];
-                for (int j = 0; j < nodalWidth; ++j) mean[j] += weight*v[j];
-            }
-        }
-        if (volume <= 0) continue;
-        for (int j = 0; j < nodalWidth; ++j) mean[j] /= volume;
-        return fluidOnly;
-    }
-    return false;
 }
 
 /// Coupled (processor) patches take their cells' values from each other.
@@ -230,14 +202,21 @@ void FoamFields::updateCells(const Cover* cover, const std::vector<Solid>& solid
 {
     double mean[nodalWidth];
     const Foam::label nCells = mesh_.nCells();
+    std::vector<double> shares;
+    if (alpha_ && controls_.numerics.dualCellTransport)
+    {
+        std::vector<double> alpha(adapter_.mesh.nNodes);
+        for (std::size_t i = 0; i < alpha.size(); ++i) alpha[i] = nodal_[i*nodalWidth + Alpha];
+        shares = liquidShares(adapter_.mesh, cover, alpha, controls_.numerics.interfaceWidth);
+    }
     for (Foam::label c = 0; c < nCells; ++c)
     {
-        const bool hasFluid = cellMean(adapter_, cover, nodal_, c, mean);
+        const bool hasFluid = cellMean(adapter_, cover, nodal_, nodalWidth, c, mean);
         if (cover && !hasFluid) rigidVelocity(*cover, solids, c, mean);
         velocity_[c] = Foam::vector(mean[Ux], mean[Uy], mean[Uz]);
         (*pressure_)[c] = mean[P];
         if (pressureRgh_) (*pressureRgh_)[c] = mean[Prgh];
-        if (alpha_) (*alpha_)[c] = mean[Alpha];
+        if (alpha_) (*alpha_)[c] = shares.empty() ? mean[Alpha] : liquidFraction(adapter_, cover, shares, c, mean[Alpha]);
     }
 }
 

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "equations/liquidShares.hpp"
+
+#include "equations/dualCells.hpp"
+#include "equations/surfaceLevel.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flotsam
+{
+
+namespace
+{
+
+constexpr double pure = 1e-3;       // alpha this near to 0 and 1 is spread evenly: half of a shallow flume's nodes have traces of the other fluid
+constexpr int maxIterations = 30;   // of Newton's method for the plane's place
+constexpr double exactEnough = 1e-12;
+
+/// The corner's share of an element: fluid volume, and as a slab along the normal, in widths of the profile.
+struct Share
+{
+    std::size_t slot;
+    double volume, middle, thickness;
+};
+
+class Spreading
+{
+public:
+    Spreading(const SimplexMesh& mesh, const Cover* cover, const std::vector<double>& alpha, double width)
+    :   mesh_(mesh), cover_(cover), alpha_(alpha), width_(width), moments_(ShareMoments::of(mesh.dim)),
+        result_(mesh.elements.size(), 0.0)
+    {
+        spreadEvenly();
+        collectCorners();
+        setGradients();
+    }
+
+    std::vector<double> run()
+    {
+        for (int i = 0; i < mesh_.nNodes; ++i)
+        {
+            if (band_[i] < 0) continue;
+            collectShares(i);
+            if (!hasNormal() || !placeSurface(alpha_[i])) continue;
+            for (const Share& s : shares_) result_[s.slot] = s.volume*((1 - planarity_)*alpha_[i] + planarity_*meanOf(s));
+        }
+        return std::move(result_);
+    }
+
+private:
+    bool isInBand(int i) const { return alpha_[i] > pure && alpha_[i] < 1 - pure; }
+
+    /// All shares as if alpha were uniform in a dual cell, and the elements of nodes of which it is not.
+    void spreadEvenly()
+    {
+        const int n = mesh_.dim + 1;
+        for (int e = 0; e < mesh_.nElements; ++e)
+        {
+            const ElementState state = cover_ ? cover_->state[e] : ElementState::Fluid;
+            if (state == ElementState::Solid) continue;
+            const int* nodes = &mesh_.elements[std::size_t(e)*n];
+            const double* first = state == ElementState::Cut ? cover_->cuts[cover_->cutIndex[e]].first : nullptr;
+            for (int a = 0; a < n; ++a) result_[std::size_t(e)*n + a] = (first ? first[a] : mesh_.volume[e]/n)*alpha_[nodes[a]];
+            if (std::any_of(nodes, nodes + n, [&](int i) { return isInBand(i); })) elements_.push_back(e);
+        }
+    }
+
+    /// Numbers the nodes of the band; their corners in the elements around.
+    void collectCorners()
+    {
+        const int n = mesh_.dim + 1;
+        band_.assign(mesh_.nNodes, -1);
+        int nBand = 0;
+        for (int i = 0; i < mesh_.nNodes; ++i)
+            if (isInBand(i)) band_[i] = nBand++;
+        start_.assign(nBand + 1, 0);
+        const auto forCorners = [&](auto visit) {
+            for (int e : elements_)
+                for (std::size_t k = std::size_t(e)*n; k < std::size_t(e + 1)*n; ++k)
+                    if (const int b = band_[mesh_.elements[k]]; b >= 0) visit(b, k);
+        };
+        forCorners([&](int b, std::size_t) { ++start_[b + 1]; });
+        for (int b = 0; b < nBand; ++b) start_[b + 1] += start_[b];
+        corner_.resize(start_[nBand]);
+        std::vector<int> next(start_.begin(), start_.end() - 1);
+        forCorners([&](int b, std::size_t k) { corner_[next[b]++] = k; });
+    }
+
+    /// Sums over the elements around a node: gradients of alpha, and their lengths, by volume.
+    void setGradients()
+    {
+        const int dim = mesh_.dim, n = dim + 1;
+        gradient_.assign((start_.size() - 1)*n, 0.0);
+        for (int e : elements_)
+        {
+            const int* nodes = &mesh_.elements[std::size_t(e)*n];
+            double g[3] = {}, square = 0;
+            for (int a = 0; a < n; ++a)
+                for (int d = 0; d < dim; ++d) g[d] += mesh_.gradN[(std::size_t(e)*n + a)*dim + d]*alpha_[nodes[a]];
+            for (int d = 0; d < dim; ++d) square += g[d]*g[d];
+            for (int a = 0; a < n; ++a)
+            {
+                if (band_[nodes[a]] < 0) continue;
+                double* sum = &gradient_[std::size_t(band_[nodes[a]])*n];
+                for (int d = 0; d < dim; ++d) sum[d] += mesh_.volume[e]*g[d];
+                sum[dim] += mesh_.volume[e]*std::sqrt(square);
+            }
+        }
+    }
+
+    bool hasNormal() const { return planarity_ > 0; }
+
+    /// The normal of node i, its shares, and these as slabs along the normal with middles relative to the node.
+    void collectShares(int i)
+    {
+        const int dim = mesh_.dim, n = dim + 1;
+        const double* g = &gradient_[std::size_t(band_[i])*n];
+        double size = 0;
+        for (int d = 0; d < dim; ++d) size += g[d]*g[d];
+        size = std::sqrt(size);
+        planarity_ = g[dim] > 0 ? size/g[dim] : 0;
+        for (int d = 0; d < dim && size > 0; ++d) normal_[d] = g[d]/size;
+        shares_.clear();
+        for (int k = start_[band_[i]]; k < start_[band_[i] + 1]; ++k)
+        {
+            const std::size_t slot = corner_[k], e = slot/n;
+            const bool isCut = cover_ && cover_->state[e] == ElementState::Cut;
+            const double volume = isCut ? cover_->cuts[cover_->cutIndex[e]].first[slot % n] : mesh_.volume[e]/n;
+            shares_.push_back(slabOf(slot, volume, &mesh_.x[std::size_t(i)*dim]));
+        }
+    }
+
+    /// The whole share of a corner, whose node is at x, as a slab of its own variance.
+    Share slabOf(std::size_t slot, double volume, const double* x) const
+    {
+        const int dim = mesh_.dim, n = dim + 1;
+        const std::size_t e = slot/n;
+        double sum = 0, squares = 0;    // of the other corners' places along the normal
+        for (int b = 0; b < n; ++b)
+        {
+            double along = 0;
+            for (int d = 0; d < dim; ++d) along += normal_[d]*(mesh_.x[std::size_t(mesh_.elements[e*n + b])*dim + d] - x[d]);
+            sum += along;
+            squares += along*along;
+        }
+        const double mean = moments_.first*sum, scale = 1/(width_*mesh_.h[e]);
+        const double variance = (moments_.square - moments_.mixed)*squares + moments_.mixed*sum*sum - mean*mean;
+        return {slot, volume, mean*scale, std::sqrt(12*std::max(0.0, variance))*scale};
+    }
+
+    double meanOf(const Share& s) const { return ProfileSlab{s.middle + place_, s.thickness}.mean() + error_; }
+
+    /// Newton's method for the plane with which the shares have `alpha` of their volume; what it leaves goes to all alike. False where it finds none.
+    bool placeSurface(double alpha)
+    {
+        double whole = 0, centre = 0;
+        for (const Share& s : shares_) whole += s.volume, centre += s.volume*s.middle;
+        if (whole <= 0) return false;
+        place_ = std::log(alpha/(1 - alpha)) - centre/whole;
+        for (int k = 0; k < maxIterations; ++k)
+        {
+            double mean = 0, slope = 0;
+            for (const Share& s : shares_)
+            {
+                const ProfileSlab slab{s.middle + place_, s.thickness};
+                mean += s.volume/whole*slab.mean();
+                slope += s.volume/whole*slab.slope();
+            }
+            error_ = alpha - mean;
+            if (std::abs(error_) < exactEnough) return true;
+            place_ += std::clamp(error_/std::max(slope, 1e-30), -2.0, 2.0);
+        }
+        return false;
+    }
+
+    const SimplexMesh& mesh_;
+    const Cover* cover_;
+    const std::vector<double>& alpha_;
+    double width_;
+    ShareMoments moments_;
+    std::vector<double> result_;
+    std::vector<int> elements_;         // with nodes of the band
+    std::vector<int> band_, start_;     // per node: place in start_ and gradient_, -1: not in the band
+    std::vector<std::size_t> corner_;   // of the elements around the nodes of the band
+    std::vector<double> gradient_;      // (dim+1) per node of the band, see setGradients()
+    // of the present node
+    std::vector<Share> shares_;
+    double normal_[3] = {};
+    double planarity_ = 0;  // 1: all gradients around point the same way; in the middle of a sheet they cancel
+    double place_ = 0;      // of the plane: of the node from it, in widths
+    double error_ = 0;
+};
+
+} // namespace
+
+std::vector<double> liquidShares(const SimplexMesh& mesh, const Cover* cover, const std::vector<double>& alpha, double width)
+{
+    return Spreading(mesh, cover, alpha, width).run();
+}
+
+} // namespace flotsam
