@@ -17,9 +17,11 @@ constexpr double sharp = 1e-6;          // fractions nearer to 0 or 1 are full o
 constexpr int maxSweeps = 200;          // a plane is found to round-off in 20 to 100
 constexpr double smallestChange = 1e-13;  // of the level, per sweep, over the common length
 constexpr int patience = 10;            // sweeps in which the change must halve: a surface that is no plane settles at a finite one
+constexpr double faceWeight = 1e-9;     // of full and empty cells whose face is the surface, beside partly filled ones
 constexpr double flattest = 0.05;       // change of alpha over a cell below which there is no surface (a mixture)
 
-struct PartlyFilled
+/// Partly filled, or full or empty where the surface lies between cells.
+struct SurfaceCell
 {
     int cell;
     double volume, fraction;            // fraction: of the liquid
@@ -34,8 +36,9 @@ public:
     :   adapter_(adapter), mesh_(adapter.mesh), halo_(halo)
     {
         for (std::size_t c = 0; c < fraction.size(); ++c)
-            if (fraction[c] > sharp && fraction[c] < 1 - sharp) add(c, fraction[c]);
-        for (const PartlyFilled& p : cells_) length_ = std::max(length_, 4*diagonal(p)); // keeps the level within 1/2
+            if (isPartlyFilled(fraction[c])) add(c, fraction[c]);
+        if (halo.any(!cells_.empty())) addCellsAtFaces(fraction);
+        for (const SurfaceCell& p : cells_) length_ = std::max(length_, 4*diagonal(p)); // keeps the level within 1/2
         length_ = halo.max(length_);
     }
 
@@ -58,15 +61,45 @@ public:
     }
 
 private:
+    static bool isPartlyFilled(double fraction) { return fraction > sharp && fraction < 1 - sharp; }
+
+    /// A surface that lies on faces leaves full and empty cells in places, beside cells with traces of either: their common nodes are on it. Without planes of
+    /// their own these nodes would keep their level in another unit, and the surface next to the traces would be tilted.
+    void addCellsAtFaces(const std::vector<double>& fraction)
+    {
+        enum { Partly, Full, Empty, nKinds };
+        std::vector<double> touches(nKinds*std::size_t(mesh_.nNodes), 0.0);
+        std::vector<int> nodes;
+        for (std::size_t c = 0; c < fraction.size(); ++c)
+        {
+            const int kind = isPartlyFilled(fraction[c]) ? Partly : fraction[c] > 0.5 ? Full : Empty;
+            collectCell(adapter_, int(c), nodes);
+            for (int i : nodes) touches[nKinds*std::size_t(i) + kind] += 1;
+        }
+        halo_.sumToOwners(touches, nKinds);
+        halo_.update(touches, nKinds);
+        const auto isOnFaces = [&](int i)
+        {
+            const double* t = &touches[nKinds*std::size_t(i)];
+            return t[Partly] == 0 && t[Full] > 0 && t[Empty] > 0;
+        };
+        for (std::size_t c = 0; c < fraction.size(); ++c)
+        {
+            if (isPartlyFilled(fraction[c])) continue;
+            collectCell(adapter_, int(c), nodes);
+            if (std::any_of(nodes.begin(), nodes.end(), isOnFaces)) add(int(c), fraction[c] > 0.5);
+        }
+    }
+
     void add(int c, double fraction)
     {
-        PartlyFilled p{c, 0, fraction, 0, {}};
+        SurfaceCell p{c, 0, fraction, 0, {}};
         p.volume = collectCell(adapter_, c, p.nodes);
         p.size = std::pow(p.volume, 1.0/mesh_.dim);
         cells_.push_back(std::move(p));
     }
 
-    double diagonal(const PartlyFilled& p) const
+    double diagonal(const SurfaceCell& p) const
     {
         double sum = 0;
         for (int d = 0; d < mesh_.dim; ++d)
@@ -83,7 +116,7 @@ private:
     }
 
     /// Mean gradient of a P1 field over the cell.
-    std::array<double, 3> gradient(const PartlyFilled& p, const std::vector<double>& field) const
+    std::array<double, 3> gradient(const SurfaceCell& p, const std::vector<double>& field) const
     {
         const int dim = mesh_.dim, n = dim + 1;
         std::array<double, 3> g{};
@@ -98,7 +131,7 @@ private:
 
     void dropMixtures(const std::vector<double>& alpha)
     {
-        const auto isMixture = [&](const PartlyFilled& p)
+        const auto isMixture = [&](const SurfaceCell& p)
         {
             const auto g = gradient(p, alpha);
             return std::hypot(g[0], g[1], g[2])*p.size < flattest;
@@ -114,7 +147,7 @@ private:
     }
 
     /// Share of the cell above the plane, and minus its derivative to the offset [1/m].
-    FluidFraction above(const PartlyFilled& p, const std::array<double, 3>& normal, double offset) const
+    FluidFraction above(const SurfaceCell& p, const std::array<double, 3>& normal, double offset) const
     {
         const int n = mesh_.dim + 1;
         FluidFraction sum{0, 0};
@@ -140,7 +173,7 @@ private:
     }
 
     /// The plane normal.x = offset that cuts off the cell's fraction on its positive side.
-    double offset(const PartlyFilled& p, const std::array<double, 3>& normal) const
+    double offset(const SurfaceCell& p, const std::array<double, 3>& normal) const
     {
         double low = 1e300, high = -1e300;
         for (int i : p.nodes)
@@ -162,7 +195,7 @@ private:
         return at;
     }
 
-    /// Nodal means of a value of each cell, nComponents wide; nodes without partly filled cells get weight 0. Result: per node the means, the weight.
+    /// Nodal means of a value of each surface cell, nComponents wide; nodes without surface cells get weight 0. Result: per node the means, the weight.
     template<class CellValue>
     std::vector<double> toNodes(int nComponents, CellValue cellValue) const
     {
@@ -170,8 +203,8 @@ private:
         std::vector<double> sum(width*mesh_.nNodes, 0.0);
         for (std::size_t k = 0; k < cells_.size(); ++k)
         {
-            const PartlyFilled& p = cells_[k];
-            const double weight = p.volume*p.fraction*(1 - p.fraction); // slivers say little about the surface
+            const SurfaceCell& p = cells_[k];
+            const double weight = p.volume*(p.fraction*(1 - p.fraction) + faceWeight); // slivers say little about the surface
             for (int i : p.nodes)
             {
                 double value[3];
@@ -260,7 +293,7 @@ private:
     const MeshAdapter& adapter_;
     const SimplexMesh& mesh_;
     const Halo& halo_;
-    std::vector<PartlyFilled> cells_;
+    std::vector<SurfaceCell> cells_;
     double length_ = 0;     // of the level's unit
 };
 

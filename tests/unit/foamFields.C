@@ -201,9 +201,12 @@ TEST_CASE("a plane comes back from the cells' fractions as that plane, also wher
                 fraction[c] = wet/all;
                 nPartly += fraction[c] > 0 && fraction[c] < 1;
             }
-            for (int i = 0; i < mesh.nNodes; ++i) alpha[i] = depth(i) > 0 ? 1 : 0;
+            for (int i = 0; i < mesh.nNodes; ++i) alpha[i] = std::abs(depth(i)) < 1e-12 ? 0.5 : depth(i) > 0 ? 1 : 0;
+            // where the surface lies on faces programs leave traces of the other fluid in some of the cells
+            constexpr double trace = 5e-5;
+            const bool isOnFaces = s.halo.sum(nPartly) == 0;
+            for (std::size_t c = 0; isOnFaces && c < fraction.size(); c += 3) fraction[c] = std::clamp(fraction[c], trace, 1 - trace);
             reconstructSurface(s.adapter, s.halo, fraction, alpha);
-            if (s.halo.sum(nPartly) == 0) continue; // the surface lies on faces
             double length = 0; // of the level's unit
             for (int i = 0; i < mesh.nNodes; ++i)
                 if (alpha[i] > 0 && alpha[i] < 1 && std::abs(depth(i)) > 1e-3) length = std::max(length, depth(i)/(alpha[i] - 0.5));
@@ -221,7 +224,7 @@ TEST_CASE("a plane comes back from the cells' fractions as that plane, also wher
                 for (std::size_t a = 0; a < n; ++a)
                 {
                     const int i = mesh.elements[e*n + a];
-                    CHECK(std::abs(length*(alpha[i] - 0.5) - depth(i)) < 1e-10);
+                    CHECK(std::abs(length*(alpha[i] - 0.5) - depth(i)) < (isOnFaces ? 3e-5 : 1e-10));
                 }
             }
         }
