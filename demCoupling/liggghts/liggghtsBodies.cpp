@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Bodies go in and are read through LIGGGHTS' C++ classes: its own commands place them at random and take mass and
 /// inertia from Monte-Carlo points.
-#include "demCoupling/liggghts/liggghtsParts.hpp"
+#include "demCoupling/liggghts/liggghtsNear.hpp"
 
 #include <mpi.h>
 
@@ -9,6 +9,7 @@
 #include "comm.h"
 #include "domain.h"
 #include "fix_multisphere.h"
+#include "integrate.h"
 #include "lammps.h"
 #include "math_extra.h"
 #include "modify.h"
@@ -17,6 +18,7 @@
 #include "update.h"
 
 #include <cfenv>
+#include <limits>
 
 namespace flotsam
 {
@@ -32,6 +34,22 @@ struct MultisphereAccess : LAMMPS_NS::FixMultisphere
         void (LAMMPS_NS::FixMultisphere::*method)() = &MultisphereAccess::set_xv;
         (bodies.*method)();
     }
+    /// From the centre of the body to that of each sphere, in the frame of the body [m].
+    static double** arms(LAMMPS_NS::FixMultisphere& bodies) { return bodies.*&MultisphereAccess::displace_; }
+};
+
+struct BodyMotion { Vec3 centre, velocity, spin; std::array<Vec3, 3> axes; };
+
+BodyMotion motionOf(const BodyArrays& b, int body)
+{
+    return {Vec3::Map(b.xcm[body]), Vec3::Map(b.vcm[body]), Vec3::Map(b.omega[body]),
+            {Vec3::Map(b.ex[body]), Vec3::Map(b.ey[body]), Vec3::Map(b.ez[body])}};
+}
+
+/// LIGGGHTS' own clearing of all forces before every sub-step; a derived class may name it.
+struct IntegratorAccess : LAMMPS_NS::Integrate
+{
+    static int& leavesForces(LAMMPS_NS::Integrate& integrator) { return integrator.*&IntegratorAccess::external_force_clear; }
 };
 
 void copy(const Vec3& from, double* to)
@@ -100,6 +118,24 @@ void markFixesAsUsed(LAMMPS_NS::Modify& modify)
         }
 }
 
+/// After LIGGGHTS' set-up: NearSpheres moves the spheres, clears their forces and asks for new lists.
+void leaveSpheresToUs(LiggghtsModel& model)
+{
+    LAMMPS_NS::LAMMPS& dem = model.instance.lammps();
+    IntegratorAccess::leavesForces(*dem.update->integrate) = 1;
+    dem.neighbor->delay = std::numeric_limits<int>::max(); // until LIGGGHTS looks by itself how far every sphere has moved
+    std::fill_n(dem.atom->f[0], 3 * dem.atom->nlocal, 0.0);
+    std::fill_n(dem.atom->torque[0], 3 * dem.atom->nlocal, 0.0);
+}
+
+std::vector<Load> totalForces(const LiggghtsModel& model)
+{
+    std::vector<Load> forces;
+    for (int b = 0; b < model.bodies.count; ++b)
+        forces.push_back({Vec3::Map(model.bodies.fcm[b]), Vec3::Map(model.bodies.torque[b])});
+    return forces;
+}
+
 } // namespace
 
 BodyArrays bodyArrays(const LiggghtsModel& model)
@@ -155,6 +191,7 @@ void insertBodies(LiggghtsModel& model, const DemSetup& setup)
         std::fesetenv(&environment);
     });
     model.instance.command("run 0 post no");
+    leaveSpheresToUs(model);
     checkBodies(model, setup);
     model.bodies = bodyArrays(model);
     for (int b = 0; b < model.bodies.count; ++b)
@@ -217,12 +254,55 @@ void setMotion(LiggghtsModel& model, int body, const Motion& motion)
     model.multisphere->data().set_angmom_via_omega_body(body, omega); // the integrator owns angmom
 }
 
-void placeSpheres(LiggghtsModel& model) { MultisphereAccess::placeSpheres(*model.multisphere); }
+void placeSpheres(LiggghtsModel& model)
+{
+    model.near->showAll();
+    MultisphereAccess::placeSpheres(*model.multisphere);
+}
+
+void placeSpheres(LiggghtsModel& model, const std::vector<int>& spheres)
+{
+    const LAMMPS_NS::Atom& atoms = *model.instance.lammps().atom;
+    double* const* const arms = MultisphereAccess::arms(*model.multisphere);
+    int last = 0;
+    BodyMotion body = motionOf(model.bodies, last);
+    for (const int i : spheres)
+    {
+        const int b = model.multisphere->belongs_to(i) - 1;
+        if (b != last)
+            body = motionOf(model.bodies, b);
+        last = b;
+        const double* const arm = arms[i];
+        const Vec3 r = body.axes[0] * arm[0] + body.axes[1] * arm[1] + body.axes[2] * arm[2];
+        copy(r + body.centre, atoms.x[i]);
+        copy(body.spin.cross(r) + body.velocity, atoms.v[i]);
+        copy(body.spin, atoms.omega[i]);
+    }
+}
+
+void takeForces(LiggghtsModel& model, const std::vector<int>& spheres)
+{
+    const BodyArrays& b = model.bodies;
+    const LAMMPS_NS::Atom& atoms = *model.instance.lammps().atom;
+    for (const int i : spheres)
+    {
+        Vec3::MapType force(atoms.f[i]), moment(atoms.torque[i]);
+        if (force.isZero(0))
+            continue;
+        const int body = model.multisphere->belongs_to(i) - 1;
+        const Vec3 arm = Vec3::Map(atoms.x[i]) - Vec3::Map(b.xcm[body]);
+        Vec3::Map(b.fcm[body]) += force;
+        Vec3::Map(b.torque[body]) += arm.cross(force) + moment;
+        force.setZero();
+        moment.setZero();
+    }
+}
 
 void rebuildNeighbours(LiggghtsModel& model)
 {
     // what Verlet::run does when it rebuilds
     LAMMPS_NS::LAMMPS& dem = model.instance.lammps();
+    const std::vector<Load> forces = totalForces(model);
     model.instance.guarded([&] {
         ++dem.update->ntimestep; // mesh walls recognise a changed grid of bins by the step number alone
         dem.modify->pre_exchange();
@@ -234,13 +314,13 @@ void rebuildNeighbours(LiggghtsModel& model)
         dem.comm->borders();
         dem.modify->pre_neighbor();
         dem.neighbor->build();
-        dem.modify->pre_force(0);
+        dem.modify->pre_force(0); // clears the forces of the bodies
     });
-}
-
-void requestRebuild(LiggghtsModel& model)
-{
-    model.multisphere->next_reneighbor = model.instance.lammps().update->ntimestep + 1;
+    for (size_t b = 0; b < forces.size(); ++b)
+    {
+        copy(forces[b].force, model.bodies.fcm[b]);
+        copy(forces[b].moment, model.bodies.torque[b]);
+    }
 }
 
 } // namespace flotsam

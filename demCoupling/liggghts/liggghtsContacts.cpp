@@ -129,7 +129,7 @@ void addMeshes(const LiggghtsModel& model, const DemSetup& setup, Sums& sums)
         double total = 0;
         for (size_t w = 0; w < model.walls.size(); ++w)
         {
-            if (!model.walls[w].mesh || !touchesMesh(model.walls[w], i))
+            if (!model.walls[w].mesh || !touchesMesh(*model.walls[w].mesh, i))
                 continue;
             const Vec3 point = closestPoint(setup.walls[w], asVec(atoms.x[i]));
             const double overlap = std::max(atoms.radius[i] - (point - asVec(atoms.x[i])).norm(), 0.0);

@@ -2,6 +2,7 @@
 #include "demCoupling/liggghts/liggghtsDamping.hpp"
 
 #include "demCoupling/liggghts/closestPoint.hpp"
+#include "demCoupling/liggghts/liggghtsNear.hpp"
 
 #include <mpi.h>
 
@@ -51,6 +52,7 @@ void SphereDamping::beforeForces(const std::vector<std::vector<int>>& nearPlane)
         return;
     stepsToLook_ = stepsBetweenLooks - 1;
     readBodies();
+    model_.near->cover(margins_);
     addPairs();
     for (size_t w = 0; w < model_.walls.size(); ++w)
         if (!model_.walls[w].mesh)
@@ -164,11 +166,9 @@ void SphereDamping::addMesh(size_t mesh)
     const LAMMPS_NS::FixNeighlistMesh& near = *group.mesh->meshNeighlist();
     LAMMPS_NS::TriMesh& triangles = *group.mesh->triMesh();
     const int wallClass = model_.contacts.classOfWall[static_cast<size_t>(group.walls.front())];
-    for (int t = 0; t < triangles.sizeLocal(); ++t)
+    for (const int t : model_.near->touchable(group))
     {
         const std::vector<int>& spheres = near.get_contact_list(t);
-        if (spheres.empty())
-            continue;
         Vec3 corners[3];
         for (int k = 0; k < 3; ++k)
             triangles.node_slow(t, k, corners[k].data());

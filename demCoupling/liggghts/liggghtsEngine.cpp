@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/liggghts/liggghtsEngine.hpp"
 
+#include "demCoupling/liggghts/liggghtsNear.hpp"
 #include "demCoupling/liggghts/liggghtsTally.hpp"
 #include "demCoupling/liggghts/reach.hpp"
 
@@ -194,7 +195,8 @@ void LiggghtsEngine::advance(double duration, double largestStep)
         throw DemError("advance: duration and largest step must be > 0");
     Implementation& d = *impl_;
     d.subSteps = 0;
-    requestRebuild(d.model);
+    if (!d.model.near->isNew())
+        rebuildNeighbours(d.model);
     d.model.tally->start();
     d.scaleInertia(d.factors);
     for (double left = duration; left > 1e-12 * duration;)
@@ -205,6 +207,7 @@ void LiggghtsEngine::advance(double duration, double largestStep)
     }
     d.model.tally->finish(duration);
     d.scaleInertia(std::vector<InertiaFactor>(d.factors.size()));
+    placeSpheres(d.model);
     d.model.instance.guarded([&] {
         checkBodies(d.model, d.setup);
         d.checkMotion();

@@ -219,9 +219,18 @@ void forEachPairContact(const LiggghtsModel& model, const std::function<void(int
     }
 }
 
-bool touchesMesh(const WallHandle& wall, int sphere)
+bool touchesMesh(LAMMPS_NS::FixMeshSurface& mesh, int sphere)
 {
-    return MeshHistoryAccess::count(*wall.mesh->contactHistory(), sphere) > 0;
+    return MeshHistoryAccess::count(*mesh.contactHistory(), sphere) > 0;
+}
+
+bool touchesTriangle(LAMMPS_NS::FixMeshSurface& mesh, int sphere, int triangle)
+{
+    if (!touchesMesh(mesh, sphere))
+        return false;
+    const int* touched = MeshHistoryAccess::triangles(*mesh.contactHistory(), sphere);
+    const int id = mesh.triMesh()->id(triangle), slots = mesh.contactHistory()->nneighs(sphere);
+    return std::find(touched, touched + slots, id) != touched + slots;
 }
 
 void findMeshTouches(const LiggghtsModel& model, int sphere, std::vector<MeshTouch>& touches)

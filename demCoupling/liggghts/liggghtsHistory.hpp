@@ -17,7 +17,9 @@ void forEachPairContact(const LiggghtsModel& model, const std::function<void(int
 /// All triangles of all meshes that this sphere (LIGGGHTS index) touches.
 void findMeshTouches(const LiggghtsModel& model, int sphere, std::vector<MeshTouch>& touches);
 
-/// Whether this sphere touches a triangle of the mesh this wall is part of.
-bool touchesMesh(const WallHandle& wall, int sphere);
+/// Whether this sphere touches a triangle of the mesh.
+bool touchesMesh(LAMMPS_NS::FixMeshSurface& mesh, int sphere);
+/// Whether it touches this triangle of the mesh.
+bool touchesTriangle(LAMMPS_NS::FixMeshSurface& mesh, int sphere, int triangle);
 
 } // namespace flotsam

@@ -15,6 +15,7 @@ namespace flotsam
 {
 
 class ContactTally;
+class NearSpheres;
 
 /// LIGGGHTS' arrays of the bodies, [body][component], space frame. Valid until a body is inserted.
 struct BodyArrays
@@ -48,11 +49,13 @@ struct MeshGroup
 /// Everything that lives inside one LIGGGHTS instance.
 struct LiggghtsModel
 {
-    LiggghtsModel() = default;
+    LiggghtsModel();
+    ~LiggghtsModel();
     LiggghtsInstance instance;
     LAMMPS_NS::FixMultisphere* multisphere = nullptr;
     ContactTally* tally = nullptr;      ///< owned by LIGGGHTS' list of fixes
     LAMMPS_NS::Fix* meshForce = nullptr; ///< per-sphere force of all mesh walls [N]; null without mesh walls
+    std::unique_ptr<NearSpheres> near;
     std::vector<WallHandle> walls;
     std::vector<MeshGroup> meshes;
     BodyArrays bodies;
@@ -79,11 +82,13 @@ BodyArrays bodyArrays(const LiggghtsModel& model);
 void setMobility(LiggghtsModel& model, int body, const std::array<bool, 6>& isFree);
 void setPose(LiggghtsModel& model, int body, const Pose& pose);
 void setMotion(LiggghtsModel& model, int body, const Motion& motion);
-/// Positions and velocities of the spheres from those of their bodies.
+/// Positions and velocities of all spheres from those of their bodies; the lists must be rebuilt before the next sub-step.
 void placeSpheres(LiggghtsModel& model);
-/// Lists of neighbours for the present positions; the next sub-step does the same when `requestRebuild` was called.
+/// What LIGGGHTS does with all spheres in every sub-step: positions and velocities; forces added to those of the bodies, and cleared.
+void placeSpheres(LiggghtsModel& model, const std::vector<int>& spheres);
+void takeForces(LiggghtsModel& model, const std::vector<int>& spheres);
+/// Lists of neighbours for the present positions of the spheres.
 void rebuildNeighbours(LiggghtsModel& model);
-void requestRebuild(LiggghtsModel& model);
 
 /// A triangle of a mesh that a sphere touches: nearest point and overlap [m].
 struct MeshTouch { size_t mesh; Vec3 point; double overlap; };
@@ -92,6 +97,7 @@ struct MeshTouch { size_t mesh; Vec3 point; double overlap; };
 void appendHistories(const LiggghtsModel& model, std::vector<double>& data);
 /// Returns the position behind what was read.
 size_t readHistories(LiggghtsModel& model, const std::vector<double>& data, size_t position);
+
 
 // liggghtsState.cpp
 DemState saveState(const LiggghtsModel& model);

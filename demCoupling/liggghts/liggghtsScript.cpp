@@ -110,6 +110,7 @@ void writeScript(LiggghtsModel& model, const DemSetup& setup, double timeStep)
     addMaterialTable(model, "coefficientFriction", [&](int a, int b) { return table.friction[table.entryOf(a, b)]; });
     dem.command("pair_style gran model hooke/stiffness tangential history " + contactModelOptions());
     dem.command("pair_coeff * *");
+    WallLimit::install(model);
     addWalls(model, setup);
     model.multisphere = static_cast<LAMMPS_NS::FixMultisphere*>(dem.addFix({"bodies", "all", "multisphere"}));
     ContactTally::install(model, setup);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Everything the future of the bodies depends on, as plain doubles.
 ///
-/// Exactness rests on three things. The neighbour lists, whose order is the order of all sums, are rebuilt in the
-/// first sub-step of every advance, so that they depend on this state alone. Forces are part of the state: computing
+/// Exactness rests on three things. The neighbour lists, whose order is the order of all sums, are rebuilt before
+/// the first sub-step of every advance, so that they depend on this state alone. Forces are part of the state: computing
 /// them anew would use full-step instead of half-step velocities. Springs are keyed by tags.
 #include "demCoupling/liggghts/liggghtsTally.hpp"
 
@@ -77,7 +77,6 @@ void restoreState(LiggghtsModel& model, const DemState& state)
     writeBodies(model, data.data() + headerLength);
     placeSpheres(model);
     rebuildNeighbours(model);
-    writeBodies(model, data.data() + headerLength); // the rebuild has cleared the forces
     for (size_t w = 0; w < model.walls.size(); ++w)
     {
         const double* load = data.data() + bodyEnd + w * wallLength;

@@ -2,13 +2,14 @@
 #include "demCoupling/liggghts/liggghtsTally.hpp"
 
 #include "demCoupling/liggghts/liggghtsHistory.hpp"
+#include "demCoupling/liggghts/liggghtsNear.hpp"
 
-#include "atom.h"
 #include "fix_mesh_surface.h"
+#include "fix_multisphere.h"
 #include "mesh_module_stress.h"
-#include "lammps.h"
 #include "modify.h"
 #include "neighbor.h"
+#include "update.h"
 
 namespace flotsam
 {
@@ -28,6 +29,22 @@ struct StressAccess : LAMMPS_NS::MeshModuleStress
     }
 };
 
+/// Puts a fix of our own in place of one without effect: LIGGGHTS makes fixes only of styles it was compiled with.
+template <class OwnFix, class... Arguments>
+OwnFix* installFix(LiggghtsModel& model, const std::string& id, Arguments&... arguments)
+{
+    LAMMPS_NS::Modify& modify = *model.instance.lammps().modify;
+    model.instance.addFix({id, "all", "lineforce", "1", "0", "0"});
+    const int slot = modify.find_fix(id.c_str());
+    delete modify.fix[slot];
+    std::array<std::string, 3> text = {id, "all", "flotsam/" + id};
+    std::array<char*, 3> words = {text[0].data(), text[1].data(), text[2].data()};
+    OwnFix* const fix = new OwnFix(&model.instance.lammps(), 3, words.data(), arguments...);
+    modify.fix[slot] = fix;
+    modify.fmask[slot] = fix->setmask();
+    return fix;
+}
+
 Load meshLoad(LAMMPS_NS::FixMeshSurface& mesh)
 {
     // compute_vector() would give the values of the step before during set-up
@@ -39,20 +56,31 @@ Load meshLoad(LAMMPS_NS::FixMeshSurface& mesh)
 
 void ContactTally::install(LiggghtsModel& model, const DemSetup& setup)
 {
-    LAMMPS_NS::Modify& modify = *model.instance.lammps().modify;
-    model.instance.addFix({"tally", "all", "lineforce", "1", "0", "0"});
-    const int slot = modify.find_fix("tally");
-    delete modify.fix[slot];
-    std::array<std::string, 3> text = {"tally", "all", "flotsam/tally"};
-    std::array<char*, 3> arguments = {text[0].data(), text[1].data(), text[2].data()};
-    model.tally = new ContactTally(&model.instance.lammps(), 3, arguments.data(), model, setup);
-    modify.fix[slot] = model.tally;
-    modify.fmask[slot] = model.tally->setmask();
+    model.near = std::make_unique<NearSpheres>(model, setup);
+    model.tally = installFix<ContactTally>(model, "tally", model, setup);
+}
+
+void WallLimit::install(LiggghtsModel& model) { installFix<WallLimit>(model, "wallLimit", model); }
+
+void WallLimit::post_force(int)
+{
+    const std::vector<int>& spheres = model_.near->atMeshes();
+    lmp->atom->nlocal = spheres.empty() ? 0 : spheres.back() + 1;
+    model_.tally->clearPlanes();
+}
+
+/// What LIGGGHTS does for every sphere.
+void ContactTally::clearPlanes()
+{
+    for (size_t w = 0; w < nearPlane_.size(); ++w)
+        for (const int i : nearPlane_[w])
+            std::fill_n(model_.walls[w].force->array_atom[i], 3, 0.0);
 }
 
 int ContactTally::setmask()
 {
-    return LAMMPS_NS::FixConst::END_OF_STEP | LAMMPS_NS::FixConst::PRE_NEIGHBOR | LAMMPS_NS::FixConst::PRE_FORCE;
+    using namespace LAMMPS_NS::FixConst;
+    return PRE_INITIAL_INTEGRATE | POST_INTEGRATE | PRE_NEIGHBOR | PRE_FORCE | POST_FORCE | PRE_FINAL_INTEGRATE | END_OF_STEP;
 }
 
 bool ContactTally::readBodies()
@@ -70,8 +98,34 @@ bool ContactTally::readBodies()
     return isTouched;
 }
 
+/// Before LIGGGHTS asks whether the lists are to be rebuilt.
+void ContactTally::post_integrate()
+{
+    showSpheres();
+    placeSpheres(model_, model_.near->active());
+    if (model_.near->keepUp())
+        return;
+    model_.multisphere->next_reneighbor = lmp->update->ntimestep;
+    placeSpheres(model_);
+}
+
+void ContactTally::pre_force(int)
+{
+    if (isRebuilt_)
+        model_.near->takeLists(nearPlane_);
+    isRebuilt_ = false;
+    damping_.beforeForces(nearPlane_);
+}
+
+void ContactTally::pre_final_integrate()
+{
+    takeForces(model_, model_.near->active());
+    hideSpheres();
+}
+
 void ContactTally::pre_neighbor()
 {
+    isRebuilt_ = true;
     const LAMMPS_NS::Atom& atoms = *lmp->atom;
     const double skin = lmp->neighbor->skin;
     nearPlane_.resize(model_.walls.size());
@@ -114,7 +168,7 @@ void ContactTally::readSharedMeshForces(const MeshGroup& group)
         wallNow_[static_cast<size_t>(w)] = {};
     auto& stress = static_cast<LAMMPS_NS::MeshModuleStress&>(*group.mesh->get_module("stress"));
     LAMMPS_NS::TriMesh& mesh = *group.mesh->triMesh();
-    for (int t = 0; t < mesh.sizeLocal(); ++t)
+    for (const int t : model_.near->touchable(group))
     {
         const double* f = StressAccess::force(stress, t);
         if (f[0] == 0 && f[1] == 0 && f[2] == 0)
@@ -129,8 +183,7 @@ void ContactTally::readSharedMeshForces(const MeshGroup& group)
 /// in one plane, which get it shared out by overlap.
 void ContactTally::readSharedMeshMoments()
 {
-    const LAMMPS_NS::Atom& atoms = *lmp->atom;
-    for (int i = 0; i < atoms.nlocal; ++i)
+    for (const int i : model_.near->atMeshes())
     {
         const Vec3 force = asVec(model_.meshForce->array_atom[i]);
         if (force.isZero(0))
@@ -226,6 +279,8 @@ void ContactTally::startSteps(double step)
 
 void ContactTally::end_of_step()
 {
+    showSpheres();
+    model_.near->dropOpenedContacts();
     if (readAll())
     {
         hasContact_ = true;

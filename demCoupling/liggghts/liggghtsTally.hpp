@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Adds up contact loads in every sub-step, exactly as the integrator uses them, and keeps the damping of the spheres up to date.
+/// Adds up contact loads in every sub-step, exactly as the integrator uses them, and keeps the choice of spheres and their damping up to date.
 #pragma once
 
 #include "demCoupling/liggghts/liggghtsDamping.hpp"
 
 #include <mpi.h>
 
+#include "atom.h"
 #include "fix.h"
+#include "lammps.h"
 
 namespace flotsam
 {
@@ -23,15 +25,21 @@ public:
     }
     int setmask() override;
     void end_of_step() override;
+    void pre_initial_integrate() override { hideSpheres(); }
+    void post_integrate() override;
     void setup_pre_neighbor() override { pre_neighbor(); }
     void pre_neighbor() override;
-    void pre_force(int) override { damping_.beforeForces(nearPlane_); }
+    void pre_force(int) override;
+    void post_force(int) override { showSpheres(); }
+    void pre_final_integrate() override;
     /// LIGGGHTS makes its tables for the types in use: all of them, though no body may have some at the start.
     int min_type() override { return 1; }
     int max_type() override { return model_.contacts.typeCount(); }
 
-    /// Puts a tally in place of a fix without effect: LIGGGHTS makes fixes only of styles it was compiled with.
     static void install(LiggghtsModel& model, const DemSetup& setup);
+
+    /// Forces of the planes on the spheres near them.
+    void clearPlanes();
 
     /// Contact loads on bodies and walls at this instant (after set-up).
     void sample();
@@ -49,6 +57,9 @@ public:
     std::vector<Load>& wallsNow() { return wallNow_; }
 
 private:
+    /// LIGGGHTS moves the bodies and, of their spheres, none: NearSpheres says which are needed.
+    void hideSpheres() { lmp->atom->nlocal = 0; }
+    void showSpheres() { lmp->atom->nlocal = model_.firstSphere.back(); }
     bool readBodies();
     bool readWalls();
     bool readAll();
@@ -63,8 +74,25 @@ private:
     std::vector<Load> bodyNow_, bodySum_, bodyMean_, wallNow_, wallSum_, wallMean_;
     std::vector<std::vector<int>> nearPlane_; ///< per wall: spheres that can touch it before the next rebuild
     std::vector<MeshTouch> touches_;
-    bool hasContact_ = false;
+    bool hasContact_ = false, isRebuilt_ = false;
     double step_ = 0;   ///< [s]
+};
+
+/// Before the walls' turn in a sub-step: they go through all spheres up to the last one, each of them, and need only those they may touch.
+class WallLimit : public LAMMPS_NS::Fix
+{
+public:
+    WallLimit(LAMMPS_NS::LAMMPS* lammps, int count, char** arguments, LiggghtsModel& model)
+        : LAMMPS_NS::Fix(lammps, count, arguments), model_(model)
+    {
+    }
+    int setmask() override { return LAMMPS_NS::FixConst::POST_FORCE; }
+    void post_force(int) override;
+
+    static void install(LiggghtsModel& model);
+
+private:
+    LiggghtsModel& model_;
 };
 
 } // namespace flotsam

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "demCoupling/liggghts/liggghtsNear.hpp"
+
+#include "demCoupling/liggghts/closestPoint.hpp"
+#include "demCoupling/liggghts/liggghtsHistory.hpp"
+
+#include <mpi.h>
+
+#include "atom.h"
+#include "fix_mesh_surface.h"
+#include "fix_neighlist_mesh.h"
+#include "force.h"
+#include "lammps.h"
+#include "neigh_list.h"
+#include "neighbor.h"
+#include "pair_gran.h"
+#include "update.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace flotsam
+{
+
+namespace
+{
+
+constexpr double stepsToSelection = 20; // a choice costs as much as one sub-step
+constexpr double leastReach = 0.0025;   // of the skin, for bodies that are pushed from rest
+
+Vec3 asVec(const double* v) { return Vec3(v[0], v[1], v[2]); }
+
+LAMMPS_NS::NeighList& pairList(const LiggghtsModel& model) { return *model.instance.lammps().force->pair->list; }
+
+/// The lists are protected; a derived class may name them.
+struct MeshListAccess : LAMMPS_NS::FixNeighlistMesh
+{
+    static std::vector<int>& of(LAMMPS_NS::FixNeighlistMesh& lists, int triangle)
+    {
+        return (lists.*&MeshListAccess::triangles)[static_cast<size_t>(triangle)].contacts;
+    }
+};
+
+} // namespace
+
+LiggghtsModel::LiggghtsModel() = default;
+LiggghtsModel::~LiggghtsModel() = default;
+
+NearSpheres::NearSpheres(LiggghtsModel& model, const DemSetup& setup)
+    : model_(model), extents_(setup.bodies.size(), Vec3::Zero()), reach_(setup.bodies.size())
+{
+    for (size_t b = 0; b < setup.bodies.size(); ++b)
+        for (const SurfaceSphere& s : setup.bodies[b].spheres)
+        {
+            extents_[b] = extents_[b].cwiseMax(s.centre.cwiseAbs());
+            bodies_.push_back(b);
+        }
+    isActive_.resize(bodies_.size());
+}
+
+NearSpheres::Place NearSpheres::placeOf(size_t body) const
+{
+    const BodyArrays& b = model_.bodies;
+    return {asVec(b.xcm[body]), asVec(b.ex[body]), asVec(b.ey[body]), asVec(b.ez[body])};
+}
+
+/// Bound of the way any of the body's spheres has gone [m].
+double NearSpheres::wayFrom(const std::vector<Place>& places, size_t body) const
+{
+    const BodyArrays& b = model_.bodies;
+    const Place& old = places[body];
+    return (asVec(b.xcm[body]) - old[0]).norm() + extents_[body][0] * (asVec(b.ex[body]) - old[1]).norm()
+           + extents_[body][1] * (asVec(b.ey[body]) - old[2]).norm() + extents_[body][2] * (asVec(b.ez[body]) - old[3]).norm();
+}
+
+/// How far a body may move between two rebuilds [m]: another may come to meet it.
+double NearSpheres::listReach() const { return 0.5 * model_.instance.lammps().neighbor->skin; }
+
+double NearSpheres::wantedReach(size_t body) const
+{
+    const BodyArrays& b = model_.bodies;
+    const LAMMPS_NS::LAMMPS& dem = model_.instance.lammps();
+    const double speed = asVec(b.vcm[body]).norm() + asVec(b.omega[body]).norm() * extents_[body].norm();
+    return std::min(stepsToSelection * speed * dem.update->dt + leastReach * dem.neighbor->skin, 0.5 * listReach());
+}
+
+void NearSpheres::takeLists(const std::vector<std::vector<int>>& nearPlane)
+{
+    rebuilt_.resize(reach_.size());
+    for (size_t b = 0; b < rebuilt_.size(); ++b)
+        rebuilt_[b] = placeOf(b);
+    isOld_ = false;
+    std::fill(isActive_.begin(), isActive_.end(), 0);
+    takePairs();
+    takeTriangles();
+    nearPlanes_.clear();
+    for (const std::vector<int>& spheres : nearPlane)
+        nearPlanes_.insert(nearPlanes_.end(), spheres.begin(), spheres.end());
+    for (const int i : nearPlanes_)
+        markActive(i);
+    listed_.clear();
+    for (size_t i = 0; i < isActive_.size(); ++i)
+        if (isActive_[i])
+            listed_.push_back(static_cast<int>(i));
+    select();
+    isNew_ = true;
+}
+
+void NearSpheres::takePairs()
+{
+    const LAMMPS_NS::NeighList& list = pairList(model_);
+    allSpheres_.assign(list.ilist, list.ilist + list.inum);
+    pairs_.clear();
+    for (const int i : allSpheres_)
+    {
+        if (list.numneigh[i] == 0)
+            continue;
+        pairs_.push_back({i, std::vector<int>(list.firstneigh[i], list.firstneigh[i] + list.numneigh[i])});
+        markActive(i);
+        for (const int j : pairs_.back().others)
+            markActive(j & NEIGHMASK);
+    }
+}
+
+void NearSpheres::takeTriangles()
+{
+    triangles_.clear();
+    for (size_t m = 0; m < model_.meshes.size(); ++m)
+    {
+        LAMMPS_NS::TriMesh& mesh = *model_.meshes[m].mesh->triMesh();
+        for (int t = 0; t < mesh.sizeLocal(); ++t)
+        {
+            const std::vector<int>& spheres = MeshListAccess::of(*model_.meshes[m].mesh->meshNeighlist(), t);
+            if (spheres.empty())
+                continue;
+            triangles_.push_back({m, t, {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}, spheres});
+            for (int k = 0; k < 3; ++k)
+                mesh.node_slow(t, k, triangles_.back().corners[static_cast<size_t>(k)].data());
+            for (const int i : spheres)
+                markActive(i);
+        }
+    }
+}
+
+bool NearSpheres::keepUp()
+{
+    isNew_ = false;
+    for (size_t b = 0; b < selected_.size() && !isOld_; ++b)
+        if (wayFrom(selected_, b) > reach_[b])
+        {
+            select();
+            break;
+        }
+    return !isOld_;
+}
+
+void NearSpheres::cover(const std::vector<double>& ways)
+{
+    for (size_t b = 0; b < selected_.size(); ++b)
+        if (wayFrom(selected_, b) + ways[b] > reach_[b])
+            return select();
+}
+
+void NearSpheres::select()
+{
+    placeSpheres(model_, listed_);
+    selected_.resize(reach_.size());
+    for (size_t b = 0; b < reach_.size(); ++b)
+    {
+        selected_[b] = placeOf(b);
+        reach_[b] = wantedReach(b);
+        isOld_ = isOld_ || wayFrom(rebuilt_, b) + reach_[b] > listReach();
+    }
+    for (const int i : listed_)
+        isActive_[static_cast<size_t>(i)] = 0;
+    selectTriangles();
+    selectPairs();
+    for (const int i : nearPlanes_)
+        markActive(i);
+    active_.clear();
+    for (const int i : listed_)
+        if (isActive_[static_cast<size_t>(i)])
+            active_.push_back(i);
+}
+
+void NearSpheres::selectPairs()
+{
+    LAMMPS_NS::NeighList& list = pairList(model_);
+    list.inum = 0;
+    for (const Neighbours& all : pairs_)
+    {
+        list.numneigh[all.sphere] = selectPairs(all);
+        if (list.numneigh[all.sphere] > 0)
+            list.ilist[list.inum++] = all.sphere;
+    }
+}
+
+/// Of one sphere, in the order of LIGGGHTS, with the springs of those in touch; their number.
+int NearSpheres::selectPairs(const Neighbours& all)
+{
+    const LAMMPS_NS::Atom& atoms = *model_.instance.lammps().atom;
+    const LAMMPS_NS::NeighList& list = pairList(model_);
+    const int i = all.sphere;
+    int *const others = list.firstneigh[i], *const flags = list.listgranhistory->firstneigh[i];
+    double* const springs = list.listgranhistory->firstdouble[i];
+    touching_.clear();
+    for (int jj = 0; jj < list.numneigh[i]; ++jj)
+        if (flags[jj])
+            touching_.push_back({others[jj], flags[jj], asVec(springs + 3 * jj)});
+    int count = 0;
+    auto touching = touching_.begin();
+    for (const int other : all.others)
+    {
+        const int j = other & NEIGHMASK;
+        const bool isTouching = touching != touching_.end() && touching->other == other;
+        const double reach = atoms.radius[i] + atoms.radius[j] + reach_[bodyOf(i)] + reach_[bodyOf(j)];
+        if (!isTouching && (asVec(atoms.x[i]) - asVec(atoms.x[j])).squaredNorm() > reach * reach)
+            continue;
+        others[count] = other;
+        flags[count] = isTouching ? touching->flag : 0;
+        Vec3::Map(springs + 3 * count) = isTouching ? touching->spring : Vec3::Zero();
+        touching += isTouching;
+        ++count;
+        markActive(i);
+        markActive(j);
+    }
+    return count;
+}
+
+void NearSpheres::dropOpenedContacts()
+{
+    const LAMMPS_NS::Atom& atoms = *model_.instance.lammps().atom;
+    const LAMMPS_NS::NeighList& list = pairList(model_);
+    const LAMMPS_NS::NeighList& history = *list.listgranhistory;
+    for (int ii = 0; ii < list.inum; ++ii)
+    {
+        const int i = list.ilist[ii];
+        for (int jj = 0; jj < list.numneigh[i]; ++jj)
+        {
+            if (!history.firstneigh[i][jj])
+                continue;
+            const int j = list.firstneigh[i][jj] & NEIGHMASK;
+            const double reach = atoms.radius[i] + atoms.radius[j];
+            if ((asVec(atoms.x[i]) - asVec(atoms.x[j])).squaredNorm() < reach * reach)
+                continue;
+            history.firstneigh[i][jj] = 0;
+            std::fill_n(history.firstdouble[i] + 3 * jj, 3, 0.0);
+        }
+    }
+}
+
+void NearSpheres::selectTriangles()
+{
+    const LAMMPS_NS::Atom& atoms = *model_.instance.lammps().atom;
+    touchable_.assign(model_.meshes.size(), {});
+    for (const TriangleNeighbours& all : triangles_)
+    {
+        LAMMPS_NS::FixMeshSurface& mesh = *model_.meshes[all.mesh].mesh;
+        std::vector<int>& list = MeshListAccess::of(*mesh.meshNeighlist(), all.triangle);
+        list.clear();
+        for (const int i : all.spheres)
+        {
+            const Vec3 centre = asVec(atoms.x[i]), point = closestPointOfTriangle(centre, all.corners[0], all.corners[1], all.corners[2]);
+            const double reach = atoms.radius[i] + reach_[bodyOf(i)];
+            if ((point - centre).squaredNorm() > reach * reach && !touchesTriangle(mesh, i, all.triangle))
+                continue;
+            list.push_back(i);
+            markActive(i);
+        }
+        if (!list.empty())
+            touchable_[all.mesh].push_back(all.triangle);
+    }
+    atMeshes_.clear();
+    for (const int i : listed_)
+        if (isActive_[static_cast<size_t>(i)])
+            atMeshes_.push_back(i);
+}
+
+void NearSpheres::showAll()
+{
+    isNew_ = isOld_ = false;
+    atMeshes_.resize(bodies_.size());
+    std::iota(atMeshes_.begin(), atMeshes_.end(), 0);
+    touchable_.resize(model_.meshes.size());
+    for (size_t m = 0; m < touchable_.size(); ++m)
+    {
+        touchable_[m].resize(static_cast<size_t>(model_.meshes[m].mesh->triMesh()->sizeLocal()));
+        std::iota(touchable_[m].begin(), touchable_[m].end(), 0);
+    }
+    if (allSpheres_.empty())
+        return;
+    LAMMPS_NS::NeighList& list = pairList(model_);
+    std::copy(allSpheres_.begin(), allSpheres_.end(), list.ilist);
+    list.inum = static_cast<int>(allSpheres_.size());
+    allSpheres_.clear();
+    selected_.clear(); // nothing to keep up with until the next rebuild
+}
+
+} // namespace flotsam
