@@ -93,11 +93,11 @@ double SphereDamping::damping(int sphere, int otherClass) const
 }
 
 /// M^-1/2 J^T of a contact: the square of its norm is what a unit impulse there changes of the normal velocity [1/kg].
-Eigen::Matrix<double, 6, 1> SphereDamping::inverseRoot(int body, const Vec3& arm, const Vec3& normal) const
+SphereDamping::Row SphereDamping::inverseRoot(int body, const Vec3& arm, const Vec3& normal) const
 {
     const BodyArrays& b = model_.bodies;
     const Vec3 turn = arm.cross(normal);
-    Eigen::Matrix<double, 6, 1> row;
+    Row row;
     row.head<3>() = normal / std::sqrt(b.mass[body]);
     const double* const axes[3] = {b.ex[body], b.ey[body], b.ez[body]};
     for (int k = 0; k < 3; ++k)
@@ -126,10 +126,7 @@ void SphereDamping::addPairs()
             const auto rowB = inverseRoot(b, point - asVec(model_.bodies.xcm[b]), normal);
             const double c = damping(i, model_.contacts.classOfBody[static_cast<size_t>(b)]);
             const double ratio = rowB.squaredNorm() / rowA.squaredNorm();
-            near_.push_back({i, j, a, partnerOf(a, b), b, partnerOf(b, a)});
-            const Near& n = near_.back();
-            partners_[static_cast<size_t>(a)][static_cast<size_t>(n.partner)].rates += c * (1 + ratio) * rowA * rowA.transpose();
-            partners_[static_cast<size_t>(b)][static_cast<size_t>(n.otherPartner)].rates += c * (1 + 1 / ratio) * rowB * rowB.transpose();
+            near_.push_back({i, j, {a, partnerOf(a, b), std::sqrt(c * (1 + ratio)) * rowA}, {b, partnerOf(b, a), std::sqrt(c * (1 + 1 / ratio)) * rowB}});
         }
     }
 }
@@ -142,9 +139,7 @@ void SphereDamping::addWallContact(int sphere, int wallClass, int wall, const Ve
     if (apart.norm() > atoms.radius[sphere] + margins_[static_cast<size_t>(body)])
         return;
     const auto row = inverseRoot(body, point - asVec(model_.bodies.xcm[body]), apart.normalized());
-    near_.push_back({sphere, -1, body, partnerOf(body, -1 - wall), -1, -1});
-    Partner& partner = partners_[static_cast<size_t>(body)][static_cast<size_t>(near_.back().partner)];
-    partner.rates += damping(sphere, wallClass) * row * row.transpose();
+    near_.push_back({sphere, -1, {body, partnerOf(body, -1 - wall), std::sqrt(damping(sphere, wallClass)) * row}, {-1, -1, Row::Zero()}});
 }
 
 void SphereDamping::addPlane(size_t wall, const std::vector<int>& spheres)
@@ -178,14 +173,34 @@ void SphereDamping::addMesh(size_t mesh)
     }
 }
 
+SphereDamping::Partner& SphereDamping::partner(const Side& side)
+{
+    return partners_[static_cast<size_t>(side.body)][static_cast<size_t>(side.partner)];
+}
+
+/// The traces bound the eigenvalues from above: where they add up to no more than 1, nothing is too large.
+void SphereDamping::addRates()
+{
+    std::vector<double> traces(partners_.size());
+    for (const Near& n : near_)
+        for (const Side* side : {&n.side, &n.otherSide})
+            if (side->body >= 0)
+                traces[static_cast<size_t>(side->body)] += side->row.squaredNorm() * step_;
+    for (const Near& n : near_)
+        for (const Side* side : {&n.side, &n.otherSide})
+            if (side->body >= 0 && traces[static_cast<size_t>(side->body)] > 1)
+                partner(*side).rates += side->row * side->row.transpose();
+}
+
 void SphereDamping::setLevels()
 {
+    addRates();
     for (std::vector<Partner>& partners : partners_)
     {
         double sum = 0, largest = 0;
         for (Partner& p : partners)
         {
-            p.z = largestEigenvalue(p.rates) * step_;
+            p.z = p.rates.isZero(0) ? 0 : largestEigenvalue(p.rates) * step_;
             sum += p.z;
             largest = std::max(largest, p.z);
         }
@@ -195,9 +210,9 @@ void SphereDamping::setLevels()
     levels_.assign(static_cast<size_t>(model_.firstSphere.back()), 0);
     for (const Near& n : near_)
     {
-        double z = partners_[static_cast<size_t>(n.body)][static_cast<size_t>(n.partner)].z;
+        double z = partner(n.side).z;
         if (n.other >= 0)
-            z = std::max(z, partners_[static_cast<size_t>(n.otherBody)][static_cast<size_t>(n.otherPartner)].z);
+            z = std::max(z, partner(n.otherSide).z);
         const int level = std::min(DampingLevel::of(z), model_.contacts.levels - 1);
         for (const int sphere : {n.sphere, n.other})
             if (sphere >= 0)

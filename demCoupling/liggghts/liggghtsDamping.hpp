@@ -32,7 +32,10 @@ private:
         Rates rates;
         double z;
     };
-    struct Near { int sphere, other, body, partner, otherBody, otherPartner; }; ///< other: sphere, or -1
+    using Row = Eigen::Matrix<double, 6, 1>;
+    /// One body of a contact; its square is the contact's part of the partner's rates.
+    struct Side { int body, partner; Row row; };
+    struct Near { int sphere, other; Side side, otherSide; }; ///< other: sphere, or -1; then no other body either
     static constexpr int stepsBetweenLooks = 10;
 
     void readBodies();
@@ -41,9 +44,11 @@ private:
     void addPlane(size_t wall, const std::vector<int>& spheres);
     void addMesh(size_t mesh);
     void addWallContact(int sphere, int wallClass, int wall, const Vec3& point);
-    Eigen::Matrix<double, 6, 1> inverseRoot(int body, const Vec3& arm, const Vec3& normal) const;
+    Row inverseRoot(int body, const Vec3& arm, const Vec3& normal) const;
     int bodyOf(int sphere) const;
     double damping(int sphere, int otherClass) const;
+    Partner& partner(const Side& side);
+    void addRates();
     void setLevels();
 
     LiggghtsModel& model_;
