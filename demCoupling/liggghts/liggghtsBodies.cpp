@@ -126,6 +126,7 @@ void leaveSpheresToUs(LiggghtsModel& model)
     dem.neighbor->delay = std::numeric_limits<int>::max(); // until LIGGGHTS looks by itself how far every sphere has moved
     std::fill_n(dem.atom->f[0], 3 * dem.atom->nlocal, 0.0);
     std::fill_n(dem.atom->torque[0], 3 * dem.atom->nlocal, 0.0);
+    shrinkContactPages(model);
 }
 
 std::vector<Load> totalForces(const LiggghtsModel& model)

@@ -10,6 +10,7 @@
 #include "force.h"
 #include "lammps.h"
 #include "neigh_list.h"
+#include "neighbor.h"
 #include "pair_gran.h"
 
 #include <algorithm>
@@ -28,6 +29,7 @@ struct MeshHistoryAccess : FixContactHistoryMesh
 {
     static int& count(FixContactHistoryMesh& h, int i) { return (h.*&MeshHistoryAccess::npartner_)[i]; }
     static int* triangles(FixContactHistoryMesh& h, int i) { return (h.*&MeshHistoryAccess::partner_)[i]; }
+    static LAMMPS_NS::MyPage<bool>& keptPage(FixContactHistoryMesh& h) { return *(h.*&MeshHistoryAccess::keeppage_)[0]; }
     static double* springs(FixContactHistoryMesh& h, int i) { return (h.*&MeshHistoryAccess::contacthistory_)[i]; }
 };
 
@@ -217,6 +219,13 @@ void forEachPairContact(const LiggghtsModel& model, const std::function<void(int
             if (history.firstneigh[i][jj])
                 visit(i, list.firstneigh[i][jj] & NEIGHMASK, history.firstdouble[i] + n * jj, n);
     }
+}
+
+void shrinkContactPages(LiggghtsModel& model)
+{
+    const int longest = model.instance.lammps().neighbor->oneatom;
+    for (const MeshGroup& group : model.meshes)
+        MeshHistoryAccess::keptPage(*group.mesh->contactHistory()).init(longest, longest);
 }
 
 bool touchesMesh(LAMMPS_NS::FixMeshSurface& mesh, int sphere)

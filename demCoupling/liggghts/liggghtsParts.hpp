@@ -98,6 +98,8 @@ void appendHistories(const LiggghtsModel& model, std::vector<double>& data);
 /// Returns the position behind what was read.
 size_t readHistories(LiggghtsModel& model, const std::vector<double>& data, size_t position);
 
+/// LIGGGHTS clears pages of marks for 100,000 contacts per mesh in every sub-step: after its set-up, pages no longer than one sphere may need.
+void shrinkContactPages(LiggghtsModel& model);
 
 // liggghtsState.cpp
 DemState saveState(const LiggghtsModel& model);

@@ -5,6 +5,8 @@
 #include <mpi.h>
 
 #include "fix_mesh_surface.h"
+#include "lammps.h"
+#include "modify.h"
 
 #include <unistd.h>
 
@@ -122,6 +124,13 @@ WallHandle addPlane(LiggghtsModel& model, const WallDefinition& wall, int axis, 
     return handle;
 }
 
+/// At the end of every sub-step LIGGGHTS computes the stress of every triangle, which nobody reads, and adds up what is on one process only.
+void dropStresses(LiggghtsModel& model, const std::string& mesh)
+{
+    LAMMPS_NS::Modify& modify = *model.instance.lammps().modify;
+    modify.fmask[modify.find_fix(mesh.c_str())] &= ~LAMMPS_NS::FixConst::FINAL_INTEGRATE;
+}
+
 void addMesh(LiggghtsModel& model, const std::string& name, const TriSurface& surface, int contactClass, size_t index)
 {
     if (surface.triangles.empty())
@@ -135,6 +144,7 @@ void addMesh(LiggghtsModel& model, const std::string& name, const TriSurface& su
     try
     {
         model.instance.addFix(arguments);
+        dropStresses(model, arguments[0]);
     }
     catch (const DemError& e)
     {
