@@ -21,9 +21,19 @@ const DemSetup& checked(const DemSetup& setup)
         throw DemError("the DEM engine needs at least one body");
     if (!((setup.box[1] - setup.box[0]).minCoeff() > 0))
         throw DemError("the DEM box is empty: its upper corner must lie above its lower corner");
-    if (!(setup.skin > 0) || !(setup.timeStep >= 0))
-        throw DemError("DEM: skin must be > 0 and timeStep >= 0 (0: chosen)");
+    if (!(setup.skin >= 0) || !(setup.timeStep >= 0))
+        throw DemError("DEM: skin and timeStep must be >= 0 (0: chosen)");
     return setup;
+}
+
+/// Wide lists are rebuilt rarely and, thinned by NearSpheres, cost little; for the smallest spheres they must not grow too long.
+double chosenSkin(const DemSetup& setup)
+{
+    double smallest = 1e300;
+    for (const BodyDefinition& body : setup.bodies)
+        for (const SurfaceSphere& s : body.spheres)
+            smallest = std::min(smallest, s.radius);
+    return std::max(0.004, 1.6 * smallest);
 }
 
 } // namespace
@@ -37,6 +47,8 @@ struct LiggghtsEngine::Implementation
         : setup(checked(given)), reach(given.bodies, given.walls), isHeld(given.bodies.size(), 0),
           loads(given.bodies.size()), factors(given.bodies.size()), applied(given.bodies.size())
     {
+        if (setup.skin == 0)
+            setup.skin = chosenSkin(setup);
         model.contacts = makeContactTable(setup);
         timeStep = setup.timeStep > 0 ? setup.timeStep : contactTimeStep(setup, model.contacts);
         model.contacts.levels = dampingLevels(setup, model.contacts, timeStep);

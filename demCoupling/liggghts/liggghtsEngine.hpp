@@ -21,7 +21,7 @@ struct DemSetup
     std::vector<ContactLaw> laws;       ///< nMaterials*nMaterials, symmetric
     std::array<Vec3, 2> box;            ///< region that holds everything; grows if a body leaves it
     double timeStep = 0;                ///< contact sub-step [s]; 0: chosen from stiffness, damping, masses (docs/contact.md)
-    double skin = 0.008;                ///< neighbour list skin [m]
+    double skin = 0;                    ///< neighbour list skin [m]; 0: chosen from the radii of the spheres (docs/contact.md)
 };
 
 /// Everything needed to go on exactly: poses, momenta, loads, contact histories. Plain doubles: write it anywhere.
