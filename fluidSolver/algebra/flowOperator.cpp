@@ -28,13 +28,15 @@ void FlowOperator::graphRows(const double* x, const double* ofPressure, double* 
             const double* G = &s_.matrix.gradient[std::size_t(k)*D];
             const double* W = &s_.matrix.divergence[std::size_t(k)*D];
             const double* v = x + std::size_t(column[k])*B;
+            double ofEntry[B] = {};     // apart: a chain of additions to one sum takes longer than to load the matrix
             for (int r = 0; r < D; ++r)
             {
-                for (int c = 0; c < D; ++c) sum[r] += K[r*D + c]*v[c];
-                if (withGradient) sum[r] += G[r]*v[D];
-                sum[D] += W[r]*v[r];
+                for (int c = 0; c < D; ++c) ofEntry[r] += K[r*D + c]*v[c];
+                if (withGradient) ofEntry[r] += G[r]*v[D];
+                ofEntry[D] += W[r]*v[r];
             }
-            sum[D] += s_.matrix.pressure[k]*v[D];
+            ofEntry[D] += s_.matrix.pressure[k]*v[D];
+            for (int r = 0; r < B; ++r) sum[r] += ofEntry[r];
         }
         for (int r = 0; r < B; ++r) y[std::size_t(i)*B + r] = sum[r];
     }
@@ -102,7 +104,9 @@ void FlowOperator::divergenceT(const double* x, const double* q, double* y) cons
         {
             const double* a = &s_.matrix.divergence[std::size_t(k)*D];
             const double* v = x + std::size_t(column[k])*B;
-            for (int c = 0; c < D; ++c) sum += a[c]*v[c];
+            double ofEntry = 0;
+            for (int c = 0; c < D; ++c) ofEntry += a[c]*v[c];
+            sum += ofEntry;
         }
         y[i] = sum;
     }
