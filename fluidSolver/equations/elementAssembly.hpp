@@ -5,58 +5,93 @@
 #include "algebra/flowSystem.hpp"
 #include "equations/elementTerms.hpp"
 
+#include <Eigen/Core>
+
 namespace flotsam
 {
 
-/// Factors of one element that belong to a single node. Copies: they stay in registers while the matrix is written.
+/// Values of the four corners b of an element, with which the processor computes several at once. In 2D the last one stays zero.
+using Corners = Eigen::Array4d;
+
+/// Values of an element's corners that lie `stride` apart.
+template<int D>
+inline Corners load(const double* v, int stride = 1)
+{
+    return {v[0], v[stride], v[2*stride], D == 3 ? v[3*stride] : 0};
+}
+
+/// Factors of one element that belong to a single node.
 template<int D>
 struct NodeFactors
 {
-    static constexpr int N = D + 1;
-    double grad[N*D], first[N];
-    double pspg[N];         ///< tau (c0 int N_b + V a.grad N_b)
-    double supg[N];         ///< tau V a.grad N_a (by the streamline density), and the node's extra share of the force (varying density)
-    double convection[N];   ///< rho a.grad N_a (streamline density)
+    Corners grad[D], first;
+    Corners pspg;           ///< tau (c0 int N_b + V a.grad N_b)
+    Corners convection;     ///< rho a.grad N_a (streamline density)
+    double streamline;      ///< tau V (by the streamline density)
 
     explicit NodeFactors(const ElementData<D>& e)
+    :   first(load<D>(e.first)), streamline(e.tau*e.volume*e.streamlineDensity/e.rho)
     {
-        for (int k = 0; k < N*D; ++k) grad[k] = e.gradN[k];
-        for (int a = 0; a < N; ++a)
+        for (int k = 0; k < D; ++k) grad[k] = load<D>(e.gradN + k, D);
+        const Corners ag = load<D>(e.ag);
+        pspg = e.tau*(e.c0*first + e.volume*ag);
+        convection = e.streamlineDensity*ag;
+    }
+};
+
+/// Inertia, skew-symmetric convection, its SUPG part in row a: the same scalar on every velocity component.
+/// With a constant density the skew form is 1/2 sum_b (F_ab rho) u_b, F_ab the fluxes between dual cells. Where the density varies,
+/// the transport's own mass fluxes stand there: a uniform velocity then meets no force from density that moves along.
+/// Without ownMass().
+template<int D>
+inline Corners scalarMomentum(const ElementData<D>& e, const NodeFactors<D>& f, int a)
+{
+    const double own = e.streamlineDensity*e.ag[a];
+    const Corners streamline = own*f.pspg;
+    if (e.isVarying) return load<D>(e.convection + a*(D + 1)) + streamline;
+    const Corners convection = 0.5*(f.convection*e.first[a] - own*f.first) + streamline;
+    if (e.second) return e.inertia*load<D>(e.second + a*(D + 1)) + convection;
+    return e.inertia*mixedMoment(e) + convection;
+}
+
+/// What row a has on its diagonal alone: the lumped mass where the density varies, the second half of the consistent one of an element that is not cut.
+template<int D>
+inline double ownMass(const ElementData<D>& e, int a)
+{
+    return e.isVarying ? e.nodalInertia[a]*e.first[a] : e.second ? 0 : e.inertia*mixedMoment(e);
+}
+
+/// What an element adds to one row of the matrix: every kind of entry for all corners.
+template<int D>
+struct ElementRow
+{
+    Corners velocity[D*D], gradient[D], divergence[D], laplace;
+
+    /// viscous: mu V, gradDiv: tau_cont V.
+    ElementRow(const ElementData<D>& e, const NodeFactors<D>& f, int a, double viscous, double gradDiv)
+    {
+        const double* ga = e.gradN + a*D;
+        const double first = e.first[a], supg = f.streamline*e.ag[a] + (e.isVarying ? e.forceShare[a]*first : 0);
+        laplace = ga[0]*f.grad[0];
+        for (int k = 1; k < D; ++k) laplace += ga[k]*f.grad[k];
+        const Corners scalar = scalarMomentum(e, f, a) + viscous*laplace;
+        for (int k = 0; k < D; ++k)
         {
-            first[a] = e.first[a];
-            pspg[a] = e.tau*(e.c0*e.first[a] + e.volume*e.ag[a]);
-            supg[a] = e.tau*e.streamlineDensity/e.rho*e.ag[a]*e.volume + (e.isVarying ? e.forceShare[a]*e.first[a] : 0);
-            convection[a] = e.streamlineDensity*e.ag[a];
+            for (int l = 0; l < D; ++l) velocity[k*D + l] = (viscous*ga[l])*f.grad[k] + (gradDiv*ga[k])*f.grad[l];
+            velocity[k*(D + 1)] += scalar;
+            gradient[k] = supg*f.grad[k] - ga[k]*f.first;       // pressure gradient, SUPG
+            divergence[k] = first*f.grad[k] + ga[k]*f.pspg;     // continuity, PSPG
         }
     }
 };
 
-/// Inertia, skew-symmetric convection, its SUPG part: the same scalar on every velocity component.
-/// With a constant density the skew form is 1/2 sum_b (F_ab rho) u_b, F_ab the fluxes between dual cells. Where the density varies,
-/// the transport's own mass fluxes stand there: a uniform velocity then meets no force from density that moves along.
-template<int D>
-inline double scalarMomentum(const ElementData<D>& e, const NodeFactors<D>& f, int a, int b)
+template<int n>
+inline void addColumn(const Corners* values, int b, double* sums)
 {
-    const double galerkin = e.isVarying
-        ? (a == b ? e.nodalInertia[a]*f.first[a] : 0) + e.convection[a*(D + 1) + b]
-        : e.inertia*e.second[a*(D + 1) + b] + 0.5*(f.convection[b]*f.first[a] - f.convection[a]*f.first[b]);
-    return galerkin + f.convection[a]*f.pspg[b];
-}
-
-/// Adds gradient column, divergence row and both pressure values of the pair (a,b).
-template<int D>
-inline void addPressurePair(const NodeFactors<D>& f, int a, int b, double pspg, double schur, std::size_t slot, FlowSystem& system)
-{
-    const double *ga = f.grad + a*D, *gb = f.grad + b*D;
-    double *g = &system.matrix.gradient[slot*D], *d = &system.matrix.divergence[slot*D];
-    const double firstA = f.first[a], firstB = f.first[b], supg = f.supg[a], own = f.pspg[b];
-    for (int k = 0; k < D; ++k)
-    {
-        g[k] += supg*gb[k] - firstB*ga[k];  // pressure gradient, SUPG
-        d[k] += firstA*gb[k] + own*ga[k];   // continuity, PSPG
-    }
-    system.matrix.pressure[slot] += pspg;
-    system.schur[slot] += schur;
+    Eigen::Map<Eigen::Array<double, n, 1>> all(sums);
+    Eigen::Array<double, n, 1> v;
+    for (int c = 0; c < n; ++c) v[c] = values[c][b];
+    all += v;
 }
 
 /// Adds every volume term of the element to the rows of its nodes; slots (a*N + b): entries of the matrix, negative in rows of other ranks.
@@ -66,37 +101,24 @@ inline void addElement(const ElementData<D>& e, const int* slot, FlowSystem& sys
     constexpr int N = D + 1;
     const NodeFactors<D> f(e);
     const double viscous = e.mu*e.volume, gradDiv = e.tauCont*e.volume;
-    const double pspg = e.tau/e.rho*e.volume, schur = e.volume*(e.tau/e.rho + 1/e.inertia);
+    const double pspg = e.tau/e.rho*e.volume, schur = pspg + e.volume/e.inertia;
+    double *velocity = system.matrix.velocity.data(), *gradient = system.matrix.gradient.data(), *divergence = system.matrix.divergence.data();
+    double *pressure = system.matrix.pressure.data(), *ofSchur = system.schur.data();
     for (int a = 0; a < N; ++a)
     {
-        const double* ga = f.grad + a*D;
-        for (int b = a; b < N; ++b)
+        if (slot[a*N] < 0) continue;
+        const ElementRow<D> row(e, f, a, viscous, gradDiv);
+        for (int b = 0; b < N; ++b)
         {
-            const int ab = slot[a*N + b], ba = slot[b*N + a];
-            if (ab < 0 && ba < 0) continue;
-            const double* gb = f.grad + b*D;
-            double stress[D*D], laplace = 0;    // of (a,b); that of (b,a) is its transpose
-            for (int k = 0; k < D; ++k)
-            {
-                laplace += ga[k]*gb[k];
-                for (int l = 0; l < D; ++l) stress[k*D + l] = viscous*ga[l]*gb[k] + gradDiv*ga[k]*gb[l];
-            }
-            if (ab >= 0)
-            {
-                double* m = &system.matrix.velocity[std::size_t(ab)*D*D];
-                const double diagonal = scalarMomentum(e, f, a, b) + viscous*laplace;
-                for (int k = 0; k < D*D; ++k) m[k] += stress[k];
-                for (int k = 0; k < D; ++k) m[k*D + k] += diagonal;
-                addPressurePair(f, a, b, pspg*laplace, schur*laplace, ab, system);
-            }
-            if (a == b || ba < 0) continue;
-            double* m = &system.matrix.velocity[std::size_t(ba)*D*D];
-            const double diagonal = scalarMomentum(e, f, b, a) + viscous*laplace;
-            for (int k = 0; k < D; ++k)
-                for (int l = 0; l < D; ++l) m[k*D + l] += stress[l*D + k];
-            for (int k = 0; k < D; ++k) m[k*D + k] += diagonal;
-            addPressurePair(f, b, a, pspg*laplace, schur*laplace, ba, system);
+            const std::size_t k = slot[a*N + b];
+            addColumn<D*D>(row.velocity, b, velocity + k*D*D);
+            addColumn<D>(row.gradient, b, gradient + k*D);
+            addColumn<D>(row.divergence, b, divergence + k*D);
+            pressure[k] += pspg*row.laplace[b];
+            ofSchur[k] += schur*row.laplace[b];
         }
+        double *own = velocity + std::size_t(slot[a*(N + 1)])*D*D, mass = ownMass(e, a);
+        for (int c = 0; c < D; ++c) own[c*(D + 1)] += mass;
     }
 }
 

@@ -84,8 +84,16 @@ struct ElementSource
     DualCellTransport::ElementFluxes fluxes{};              ///< null where the density does not vary
     double rhoOld = 0, rhoOlder = 0;                        ///< means over the fluid part at t^n, t^(n-1) [kg/m^3]
     TimeScheme time;                                        ///< first order where the density is steep
-    double elementTime = 0;                                 ///< see elementTime() [s]
+    ElementRates rates;
 };
+
+template<int D>
+inline double squared(const double* v)
+{
+    double sum = 0;
+    for (int d = 0; d < D; ++d) sum += v[d]*v[d];
+    return sum;
+}
 
 /// Fluid part, materials, what convects, tau, history and force: all that the momentum residual needs. False for an element without a fluid part.
 template<int D>
@@ -101,59 +109,62 @@ inline bool loadResidualData(int e, const SimplexMesh& mesh, const FlowStepData&
         if (state == ElementState::Solid) return false;
         if (state == ElementState::Cut) cut = &step.cover->cuts[step.cover->cutIndex[e]];
     }
-    data.volume = cut ? cut->volume : mesh.volume[e];
-    for (int a = 0; a < N; ++a) data.first[a] = cut ? cut->first[a] : data.volume/N;
     const int* nodes = &mesh.elements[std::size_t(e)*N];
+    data.volume = cut ? cut->volume : mesh.volume[e];
     data.gradN = &mesh.gradN[std::size_t(e)*N*D];
-    data.rho = data.mu = 0;
     if (step.transport && (!cut || isAtRest(step, *cut))) source.fluxes = step.transport->fluxes(e);
     data.isVarying = source.fluxes.total != nullptr;
-    for (int d = 0; d < D; ++d) data.advection[d] = 0;
-    const double inverse = 1/data.volume;
+    // sums of their own: through the references every addition would wait for the last one's way to memory and back
+    double rho = 0, rhoOld = 0, rhoOlder = 0, mu = 0, advection[D] = {};
+    const double inverse = cut ? 1/data.volume : 0;
     for (int a = 0; a < N; ++a)
     {
         const int i = nodes[a];
-        const double w = data.first[a]*inverse;
-        data.rho += w*nodal.rho[i];
-        source.rhoOld += w*nodal.rhoOld[i];
-        source.rhoOlder += w*nodal.rhoOlder[i];
-        data.mu += w*nodal.mu[i];
-        for (int d = 0; d < D; ++d) data.advection[d] += w*nodal.advection[std::size_t(i)*D + d];
+        const double w = cut ? cut->first[a]*inverse : 1.0/N;
+        data.first[a] = cut ? cut->first[a] : data.volume*(1.0/N);
+        rho += w*nodal.rho[i];
+        rhoOld += w*nodal.rhoOld[i];
+        rhoOlder += w*nodal.rhoOlder[i];
+        mu += w*nodal.mu[i];
+        for (int d = 0; d < D; ++d) advection[d] += w*nodal.advection[std::size_t(i)*D + d];
     }
-    const double h = mesh.h[e], nu = data.mu/data.rho;
+    data.rho = rho;
+    data.mu = mu;
+    source.rhoOld = rhoOld;
+    source.rhoOlder = rhoOlder;
+    const double dt = step.time.dt, h = mesh.h[e], nu = mu/rho;
+    source.rates = ElementRates(dt, squared<D>(advection), h, nu);
     if (step.fineScale)
     {
-        double square = 0;
-        for (int d = 0; d < D; ++d) square += data.advection[d]*data.advection[d];
-        const double share = convectingShare(step.time.dt, std::sqrt(square), h, nu);
-        for (int d = 0; d < D; ++d) data.advection[d] += share*(*step.fineScale)[std::size_t(e)*D + d];
+        const double share = source.rates.convectingShare();
+        for (int d = 0; d < D; ++d) advection[d] += share*(*step.fineScale)[std::size_t(e)*D + d];
+        source.rates.setSpeed(squared<D>(advection), h);
     }
+    for (int d = 0; d < D; ++d) data.advection[d] = advection[d];
     source.time = step.time;
-    if (isSteep<D>(data, nodes, nodal, source.rhoOld, source.rhoOlder)) source.time = TimeScheme::bdf(1, step.time.dt, 0);
+    if (isSteep<D>(data, nodes, nodal, rhoOld, rhoOlder)) source.time = TimeScheme::bdf(1, dt, 0);
+    const double c1 = source.time.c1, c2 = source.time.c2;
     data.c0 = source.time.c0;
     for (int a = 0; a < N; ++a)
         for (int d = 0; d < D; ++d)
         {
             const std::size_t k = std::size_t(nodes[a])*D + d;
-            data.history[a*D + d] = -(source.time.c1*step.state->u[k] + source.time.c2*step.state->uOld[k]);
+            data.history[a*D + d] = -(c1*step.state->u[k] + c2*step.state->uOld[k]);
         }
-    double speed = 0;
-    for (int d = 0; d < D; ++d) speed += data.advection[d]*data.advection[d];
-    source.elementTime = elementTime(step.time.dt, std::sqrt(speed), h, nu);
-    data.tau = tauMomentum(controls.tauFactor, step.time.dt, std::sqrt(speed), h, nu);
+    data.tau = source.rates.tauMomentum(controls.tauFactor);
     for (int d = 0; d < D; ++d)
         data.force[d] = step.elementForce ? (*step.elementForce)[std::size_t(e)*D + d] : 0;
     data.prepare();
     return true;
 }
 
+/// -(c1 rho^n u^n + c2 rho^(n-1) u^(n-1)) of corner a: as the velocity's own history with one density, and what the other adds.
 template<int D>
-inline void loadSecondMoments(const CutElement* cut, ElementData<D>& data)
+inline void loadMomentumHistory(int a, int node, double old, double older, const FlowStepData& step, const TimeScheme& time, ElementData<D>& data)
 {
-    constexpr int N = D + 1;
-    const double off = data.volume/(N*(N + 1));
-    for (int k = 0; k < N*N; ++k) data.second[k] = cut ? cut->second[k] : off;
-    for (int a = 0; a < N && !cut; ++a) data.second[a*(N + 1)] = 2*off;
+    for (int d = 0; d < D; ++d) data.momentumHistory[a*D + d] = old*data.history[a*D + d];
+    const double more = (old - older)*time.c2;
+    for (int d = 0; d < D && more != 0; ++d) data.momentumHistory[a*D + d] += more*step.state->uOld[std::size_t(node)*D + d];
 }
 
 /// Inertia and momentum history by BDF of the momentum, with the nodes' own densities where the density varies.
@@ -162,24 +173,29 @@ inline void loadInertia(const int* nodes, const FlowStepData& step, const NodalD
 {
     const TimeScheme& t = source.time;
     data.inertia = 0.5*(t.c0*data.rho - t.c1*source.rhoOld - t.c2*source.rhoOlder);
+    data.streamlineDensity = data.rho;
+    if (!data.isVarying)
+    {
+        const double rate = t.c0*data.rho + t.c1*source.rhoOld + t.c2*source.rhoOlder;
+        for (int a = 0; a <= D; ++a)
+        {
+            data.densityRate[a] = rate;
+            loadMomentumHistory(a, nodes[a], source.rhoOld, source.rhoOlder, step, t, data);
+        }
+        return;
+    }
     double least = data.inertia;
     for (int a = 0; a <= D; ++a)
     {
         const int i = nodes[a];
-        const double now = data.isVarying ? nodal.rho[i] : data.rho;
-        const double old = data.isVarying ? nodal.rhoOld[i] : source.rhoOld;
-        const double older = data.isVarying ? nodal.rhoOlder[i] : source.rhoOlder;
+        const double now = nodal.rho[i], old = nodal.rhoOld[i], older = nodal.rhoOlder[i];
         data.nodalInertia[a] = 0.5*(t.c0*now - t.c1*old - t.c2*older);
         data.densityRate[a] = t.c0*now + t.c1*old + t.c2*older;
         data.forceShare[a] = now/data.rho - 1;
         least = std::min(least, data.nodalInertia[a]);
-        for (int d = 0; d < D; ++d)
-        {
-            const std::size_t k = std::size_t(i)*D + d;
-            data.momentumHistory[a*D + d] = -(old*(t.c1*step.state->u[k]) + older*(t.c2*step.state->uOld[k]));
-        }
+        loadMomentumHistory(a, i, old, older, step, t, data);
     }
-    data.streamlineDensity = data.rho*least/data.inertia;
+    data.streamlineDensity *= least/data.inertia;
 }
 
 /// All that the matrix needs. False for an element without a fluid part.
@@ -189,13 +205,11 @@ inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& 
 {
     ElementSource source;
     if (!loadResidualData<D>(e, mesh, step, controls, nodal, data, source)) return false;
-    loadSecondMoments<D>(source.cut, data);
+    data.second = source.cut ? source.cut->second : nullptr;
     loadInertia<D>(&mesh.elements[std::size_t(e)*(D + 1)], step, nodal, source, data);
     if (data.isVarying) loadConvection<D>(source.fluxes, fluid, controls, data);
-    double square = 0;
-    for (int d = 0; d < D; ++d) square += data.advection[d]*data.advection[d];
     data.tauCont = controls.tauContFactor
-        *tauContinuity(controls.tauContWithTimeStep, data.rho, std::sqrt(square), mesh.h[e], data.mu/data.rho, source.elementTime);
+        *tauContinuity(controls.tauContWithTimeStep, data.rho, squared<D>(data.advection), mesh.h[e], data.mu/data.rho, source.rates);
     return true;
 }
 

@@ -25,7 +25,7 @@ struct ElementData
 
     double volume;                      ///< fluid part [m^D]
     double first[N];                    ///< int N_a
-    double second[N*N];                 ///< int N_a N_b
+    const double* second;               ///< N*N: int N_a N_b; null: not cut, V (1 + delta_ab)/(N (N + 1))
     const double* gradN;                ///< N*D
     double rho, mu;                     ///< density, viscosity at t^(n+1): means over the fluid part
     double c0;                          ///< du/dt = c0 u - history [1/s]
@@ -66,33 +66,46 @@ inline double massDefect(const ElementData<D>& e, int a)
     return 0.5*e.densityRate[a]*e.first[a] + halfOutflow;
 }
 
-/// Integral of the nodal history over the fluid part: the same for every row.
+/// int N_a N_b for a != b of an element that is not cut; twice that for a = b.
 template<int D>
-inline void integrateHistory(const ElementData<D>& e, double* integral)
+inline double mixedMoment(const ElementData<D>& e)
 {
-    for (int k = 0; k < D; ++k)
-    {
-        integral[k] = 0;
-        for (int b = 0; b <= D; ++b) integral[k] += e.first[b]*e.history[b*D + k];
-    }
+    return e.volume/((D + 1)*(D + 2));
 }
 
-/// Adds to the right-hand side of node a: history (its integral: integrateHistory()) and body force with their SUPG and PSPG parts.
+/// What all rows of an element have of its nodal histories.
 template<int D>
-inline void addSource(const ElementData<D>& e, int a, const double* history, double* rhs)
+struct ElementHistory
+{
+    double velocity[D] = {};    ///< integral over the fluid part
+    double momentum[D] = {};    ///< one density, not cut: of the integral times N_a, but for the node's own second half
+
+    explicit ElementHistory(const ElementData<D>& e)
+    {
+        const bool isPlain = !e.isVarying && !e.second;
+        for (int b = 0; b <= D; ++b)
+            for (int k = 0; k < D; ++k) velocity[k] += e.first[b]*e.history[b*D + k];
+        for (int b = 0; b <= D && isPlain; ++b)
+            for (int k = 0; k < D; ++k) momentum[k] += e.momentumHistory[b*D + k];
+        for (double& m : momentum) m *= mixedMoment(e);
+    }
+};
+
+/// Adds to the right-hand side of node a: history and body force with their SUPG and PSPG parts.
+template<int D>
+inline void addSource(const ElementData<D>& e, int a, const ElementHistory<D>& history, double* rhs)
 {
     constexpr int N = D + 1;
     const double* ga = e.gradN + a*D;
     const double streamline = e.tau*e.streamlineDensity*e.ag[a];
     const double forced = (e.isVarying ? 1 + e.forceShare[a] : 1)*e.first[a];
+    const double own = e.isVarying ? e.first[a] : e.second ? 0 : mixedMoment(e), volumeOverRho = e.volume/e.rho;
     double pspg = 0;
     for (int k = 0; k < D; ++k)
     {
-        double mass = 0;
-        if (e.isVarying) mass = e.first[a]*e.momentumHistory[a*D + k];
-        else
-            for (int b = 0; b < N; ++b) mass += e.second[a*N + b]*e.momentumHistory[b*D + k];
-        const double residual = history[k] + e.volume*e.force[k]/e.rho;
+        double mass = history.momentum[k] + own*e.momentumHistory[a*D + k];
+        for (int b = 0; b < N && e.second && !e.isVarying; ++b) mass += e.second[a*N + b]*e.momentumHistory[b*D + k];
+        const double residual = history.velocity[k] + volumeOverRho*e.force[k];
         rhs[k] += mass + streamline*residual + forced*e.force[k];
         pspg += ga[k]*residual;
     }

@@ -102,8 +102,8 @@ void FlowEquation::assembleElements()
     {
         if (!loadElement<D>(e, data)) continue;
         const int* nodes = &mesh_.elements[std::size_t(e)*N];
-        double history[D];
-        integrateHistory(data, history);
+        const ElementHistory<D> history(data);
+        const double pressureMass = 1/(data.mu + data.tauCont);
         for (int a = 0; a < N; ++a)
         {
             const int i = nodes[a];
@@ -113,7 +113,7 @@ void FlowEquation::assembleElements()
             system_.dualVolume[i] += data.first[a];
             defect_[i] += massDefect(data, a);
             carriesMass_[i] |= data.isVarying;
-            system_.pressureMass[i] += data.first[a]/(data.mu + data.tauCont);
+            system_.pressureMass[i] += data.first[a]*pressureMass;
         }
         int slot[N*N];
         for (int k = 0; k < N*N; ++k) slot[k] = graph_.slot(nodes[k/N], std::size_t(e)*N*N + k);
@@ -174,18 +174,18 @@ void FlowEquation::fineScaleT(const std::vector<double>& x, std::vector<double>&
             continue;
         }
         const int* nodes = &mesh_.elements[std::size_t(e)*N];
-        for (int d = 0; d < D; ++d)
+        const double volume = 1/data.volume, density = 1/data.rho;
+        double rate[D] = {}, gradP[D] = {};
+        for (int a = 0; a < N; ++a)
         {
-            double rate = 0, gradP = 0;
-            for (int a = 0; a < N; ++a)
+            const double *u = &x[std::size_t(nodes[a])*B], mean = data.first[a]*volume, fromU = data.c0*mean + data.ag[a];
+            for (int d = 0; d < D; ++d)
             {
-                const double u = x[std::size_t(nodes[a])*B + d];
-                const double mean = data.first[a]/data.volume;
-                rate += (data.c0*u - data.history[a*D + d])*mean + data.ag[a]*u;
-                gradP += data.gradN[a*D + d]*x[std::size_t(nodes[a])*B + D];
+                rate[d] += fromU*u[d] - mean*data.history[a*D + d];
+                gradP[d] += data.gradN[a*D + d]*u[D];
             }
-            r[d] = -data.tau*(rate + (gradP - data.force[d])/data.rho);
         }
+        for (int d = 0; d < D; ++d) r[d] = -data.tau*(rate[d] + (gradP[d] - data.force[d])*density);
     }
 }
 

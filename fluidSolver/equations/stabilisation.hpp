@@ -7,48 +7,37 @@
 namespace flotsam
 {
 
-/// Rates at which time steps, convection and viscosity change what an element holds [1/s], the viscous one by nu/h^2.
+/// Squares of the rates at which time steps, convection and viscosity change what an element holds [1/s^2], the viscous one by nu/h^2.
 struct ElementRates
 {
-    double transient, convective, viscous;
+    double transient = 0, convective = 0, viscous = 0;
 
-    ElementRates(double dt, double speed, double h, double nu) : transient(2/dt), convective(2*speed/h), viscous(nu/(h*h)) {}
+    ElementRates() = default;
+    ElementRates(double dt, double squaredSpeed, double h, double nu) : transient(4/(dt*dt)), viscous(nu*nu/(h*h*h*h)) { setSpeed(squaredSpeed, h); }
 
-    /// Time by these, with the inertial ones times `inertial` and so many nu/h^2 [s].
-    double time(double inertial, double viscosities) const
+    void setSpeed(double squaredSpeed, double h) { convective = 4*squaredSpeed/(h*h); }
+
+    /// 1/T [1/s], T the time in which an element passes on what happens in it: Tezduyar's tau. The time step belongs into it: without it the
+    /// two-phase scheme blows up within 30 steps (docs/numerics.md).
+    double elementRate() const { return std::sqrt(transient + convective + 12*12*viscous); }
+
+    /// tau of SUPG and PSPG [s]: multiplies the momentum residual divided by rho. Where inertia counts `factor` times T (all of it damps vortices),
+    /// where viscosity does 3/4 of T (with less the pressure beside cut elements converges slower than with order 1.5, with more the velocity is worse).
+    double tauMomentum(double factor) const { return factor/std::sqrt(transient + convective + factor*factor*16*16*viscous); }
+
+    /// Share of u' that convects (0..1): the inertial part of T. The residual of P1 lacks the viscous stress, u' is wrong where that matters, and there it
+    /// oscillates from step to step (lid-driven cavity at Re 100); convection is of no importance in such elements.
+    double convectingShare() const
     {
-        const double a = inertial*transient, b = inertial*convective, c = viscosities*viscous;
-        return 1/std::sqrt(a*a + b*b + c*c);
+        const double inertial = transient + convective;
+        return inertial/(inertial + 12*12*viscous);
     }
 };
 
-/// Time T in which an element passes on what happens in it [s]: Tezduyar's tau. The time step belongs into it: without it the two-phase scheme blows up
-/// within 30 steps (docs/numerics.md).
-inline double elementTime(double dt, double speed, double h, double nu)
-{
-    return ElementRates(dt, speed, h, nu).time(1, 12);
-}
-
-/// tau of SUPG and PSPG [s]: multiplies the momentum residual divided by rho. Where inertia counts `factor` times T (all of it damps vortices),
-/// where viscosity does 3/4 of T (with less the pressure beside cut elements converges slower than with order 1.5, with more the velocity is worse).
-inline double tauMomentum(double factor, double dt, double speed, double h, double nu)
-{
-    return ElementRates(dt, speed, h, nu).time(1/factor, 16);
-}
-
-/// Share of u' that convects (0..1): the inertial part of T. The residual of P1 lacks the viscous stress, u' is wrong where that matters, and there it
-/// oscillates from step to step (lid-driven cavity at Re 100); convection is of no importance in such elements.
-inline double convectingShare(double dt, double speed, double h, double nu)
-{
-    const ElementRates r(dt, speed, h, nu);
-    const double inertial = r.transient*r.transient + r.convective*r.convective, viscous = 12*r.viscous;
-    return inertial/(inertial + viscous*viscous);
-}
-
 /// tau_cont [Pa s] of the grad-div term: rho h^2/(12 T) (with the time step) or rho (nu + |a| h/2) (without).
-inline double tauContinuity(bool withTimeStep, double rho, double speed, double h, double nu, double time)
+inline double tauContinuity(bool withTimeStep, double rho, double squaredSpeed, double h, double nu, const ElementRates& rates)
 {
-    return withTimeStep ? rho*h*h/(12*time) : rho*(nu + 0.5*speed*h);
+    return rho*(withTimeStep ? h*h/12*rates.elementRate() : nu + 0.5*std::sqrt(squaredSpeed)*h);
 }
 
 } // namespace flotsam
