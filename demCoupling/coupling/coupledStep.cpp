@@ -31,6 +31,7 @@ CoupledStep::CoupledStep(const SimplexMesh& mesh, const Halo& halo, const FluidP
     scene_(std::move(scene))
 {
     if (!scene_.isEmpty()) builder_ = std::make_unique<CoverBuilder>(mesh, fluid_.graph(), halo);
+    else fluid_.forgetFaces();
     // 2D: the last bit of a section depends on the pose it is taken in, which must not be that in which a run goes on
     for (const Solid& solid : scene_.solids())
         if (solid.kind == Solid::Kind::Free) builder_->exactVolume(solid);

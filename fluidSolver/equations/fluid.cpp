@@ -24,6 +24,11 @@ Fluid::Fluid(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& f
     if (!controls_.dualCellTransport) supg_ = std::make_unique<PhaseFieldSupg>(mesh, graph_, halo, controls_);
 }
 
+void Fluid::forgetFaces()
+{
+    if (!gas_) std::vector<InteriorFace>().swap(graph_.faces);
+}
+
 void Fluid::start(FlowState state, bool isSharp)
 {
     state_ = std::move(state);

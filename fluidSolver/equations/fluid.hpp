@@ -71,6 +71,8 @@ public:
     FlowState& state() { return state_; }
     const SimplexMesh& mesh() const { return mesh_; }
     const NodeGraph& graph() const { return graph_; }
+    /// Nothing will ever be cut: the graph forgets the faces of the elements, unless gas is left out along them.
+    void forgetFaces();
     const Halo& halo() const { return halo_; }
     const FlowEquation& equation() const { return equation_; }
     /// Liquid volume the transport keeps to (part of the state) [m^dim].
