@@ -58,6 +58,18 @@ struct FaceGeometry
     }
 };
 
+/// Mean alpha of a film over what passes a face during a step.
+template<int dim>
+double filmSweptMean(const NodeProfile& film, const double* offset, const double* velocity, double dt)
+{
+    const double across = film.steepness*dot<dim>(film.normal, offset), sweptAcross = film.steepness*dt*dot<dim>(film.normal, velocity);
+    const double wedge = film.steepness*dot<dim>(film.taper, offset), sweptWedge = film.steepness*dt*dot<dim>(film.taper, velocity);
+    const double upper = sweptMean(film.value + wedge - across, sweptWedge - sweptAcross);
+    const double lower = sweptMean(film.otherValue + wedge + across, sweptWedge + sweptAcross);
+    const double share = std::max(0., upper + lower - 1);
+    return film.isGas ? 1 - share : share;
+}
+
 } // namespace
 
 /// antiFlux_ = dt F (alpha of the profile at the face - value of the upwind exchange), from the first corner to the second.
@@ -112,6 +124,11 @@ void DualCellTransport::addFaceValues(const Arguments& in)
             }
             double offset[dim], velocity[dim];
             geometry.evaluate(a, b, upwind, offset, velocity);
+            if (profile.kind == NodeProfile::Kind::Film)
+            {
+                antiFlux[p] = dt*flux[p]*(filmSweptMean<dim>(profile, offset, velocity, dt) - upwind_[nodes[upwind]]);
+                continue;
+            }
             double psi, swept;
             if (profile.kind == NodeProfile::Kind::Front)
             {

@@ -29,6 +29,7 @@ DualCellTransport::DualCellTransport(const SimplexMesh& mesh, const NodeGraph& g
       firstVolume_(mesh.nNodes), isActiveNode_(mesh.nNodes, 0), isListed_(mesh.nElements, 0), limiter_(2*std::size_t(mesh.nNodes)),
       isOpen_(mesh.nNodes, 0)
 {
+    cells_.complete(halo);
 }
 
 double DualCellTransport::effectiveVolume(int i) const
@@ -240,7 +241,7 @@ void DualCellTransport::advancePart(const Arguments& in, const Part& part, Trans
     if (part.level == 0)
     {
         report.nRoof = reconstruction_.nRoofs();
-        report.nBand = reconstruction_.nFronts() + reconstruction_.nRoofs();
+        report.nBand = reconstruction_.nFronts() + reconstruction_.nRoofs() + reconstruction_.nFilms();
     }
     addFaceValues<dim>(in);
     if (in.mobility > 0)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "equations/dualCells.hpp"
 
+#include "algebra/halo.hpp"
 #include "geometry/cover.hpp"
 
 #include <algorithm>
@@ -126,6 +127,13 @@ DualCells::DualCells(const SimplexMesh& mesh)
             }
         }
     }
+}
+
+void DualCells::complete(const Halo& halo)
+{
+    halo.update(volume_, 1);
+    halo.update(centroid_, dim_);
+    halo.update(second_, dim_ == 2 ? 3 : 6);
 }
 
 double DualCells::halfWidth(int i, const double* n) const

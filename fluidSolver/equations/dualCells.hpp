@@ -11,6 +11,7 @@
 namespace flotsam
 {
 
+class Halo;
 struct Cover;
 
 /// Mean over the share of corner a in a simplex of the barycentric coordinates of the OTHER corners b, c.
@@ -41,11 +42,15 @@ struct DualFaceWeights
 /// Complete for owned and first-ring nodes. cover may be null (no solids).
 std::vector<double> dualVolumes(const SimplexMesh& mesh, const Cover* cover);
 
-/// Centroid and second moments of the whole dual cells (solids ignored), for owned and first-ring nodes.
+/// Centroid and second moments of the whole dual cells (solids ignored), for owned and first-ring nodes;
+/// after complete() for all local nodes.
 class DualCells
 {
 public:
     explicit DualCells(const SimplexMesh& mesh);
+
+    /// Collective.
+    void complete(const Halo& halo);
 
     int dim() const { return dim_; }
     double volume(int i) const { return volume_[i]; }                           ///< [m^dim]

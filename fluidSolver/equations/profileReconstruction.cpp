@@ -23,11 +23,6 @@ bool isInBand(double alpha)
     return alpha > bandEdge && alpha < 1 - bandEdge;
 }
 
-double variation(double alpha)
-{
-    return alpha*(1 - alpha);
-}
-
 /// Slope of a roof over the interpolated one: blunt for filaments (opposed normals), sharp for corners.
 double roofFactorOf(double coherence)
 {
@@ -219,7 +214,7 @@ template<int dim>
 void ProfileReconstruction::build(const std::vector<double>& alpha, const std::vector<int>& elements,
     const std::vector<int>& nodes, const Cover* cover)
 {
-    nFronts_ = nRoofs_ = 0;
+    nFronts_ = nRoofs_ = nFilms_ = 0;
     sumNormals<dim>(alpha, elements, cover);
     for (int i : nodes)
     {
@@ -247,9 +242,13 @@ void ProfileReconstruction::build(const std::vector<double>& alpha, const std::v
         }
         p.steepness = 1/width_[i];
         const double coherence = length/coherence_[i];
-        if (coherence >= coherenceLimit)
+        fitFront<dim>(i, alpha[i]);
+        if (fitFilm<dim>(i, alpha, coherence >= coherenceLimit, cover))
         {
-            fitFront<dim>(i, alpha[i]);
+            nFilms_ += i < mesh_.nOwned;
+        }
+        else if (coherence >= coherenceLimit)
+        {
             nFronts_ += i < mesh_.nOwned;
         }
         else

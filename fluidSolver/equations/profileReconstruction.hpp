@@ -3,7 +3,7 @@
 ///
 /// A cell's alpha is taken as the mean of 1/(1+exp(-psi)), psi = distance/width, over the cell. Where the neighbours agree
 /// on the direction the surface is one plane front; elsewhere (thin filaments, corners) psi is a "roof": one slope and
-/// direction per element around the node, one value at the node.
+/// direction per element around the node, one value at the node. Films with both surfaces in a cell are fitted to the neighbours (filmFit.hpp).
 #pragma once
 
 #include "equations/dualCells.hpp"
@@ -14,16 +14,28 @@
 namespace flotsam
 {
 
-/// psi(x) = value + steepness normal.(x - x_node) (front), or per element (roof).
+struct FilmSample;
+
+/// psi(x) = value + steepness normal.(x - x_node) (front), or per element (roof). A film of one phase has two fronts:
+/// psi = value + steepness (taper -+ normal).(x - x_node), its alpha is the sum of both less 1.
 struct NodeProfile
 {
-    enum class Kind : int { Tail, Bulk, Front, Roof };
-    double normal[3];       ///< unit, into the liquid (front)
+    enum class Kind : int { Tail, Bulk, Front, Roof, Film };
+    double normal[3];       ///< unit, into the liquid (front) or across the film
+    double taper[3];        ///< half the gradient of a film's thickness
     double value;           ///< psi at the node
+    double otherValue;      ///< of a film's second front
     double steepness;       ///< 1/width [1/m]
     double roofFactor;      ///< slope of a roof over that of the interpolated psi, before it is limited to 1/width
     Kind kind;
+    bool isGas;             ///< the film is of gas
 };
+
+/// Weight of a node in the normals around it: 0 in water and gas.
+inline double variation(double alpha)
+{
+    return alpha*(1 - alpha);
+}
 
 /// int_0^1 of 1/(1+exp(-(psi - s swept))) ds: mean of the profile over what passes a face during a step.
 inline double sweptMean(double psi, double swept)
@@ -67,10 +79,16 @@ public:
 
     long nFronts() const { return nFronts_; }
     long nRoofs() const { return nRoofs_; }
+    long nFilms() const { return nFilms_; }
 
 private:
     template<int dim> void sumNormals(const std::vector<double>& alpha, const std::vector<int>& elements, const Cover* cover);
     template<int dim> void fitFront(int i, double alpha);
+    template<int dim> bool fitFilm(int i, const std::vector<double>& alpha, bool isCoherent, const Cover* cover);
+    template<int dim> int findRing(int i, const Cover* cover, int* ring) const;
+    template<int dim> void findFilmAxes(int i, const std::vector<double>& alpha, const Cover* cover, double (&axes)[dim][dim]) const;
+    template<int dim> FilmSample sampleOf(int i, int j, double share, const double (&axes)[dim][dim], double length) const;
+    template<int dim> double frontResidual(const int* ring, int size, const std::vector<double>& alpha) const;
     template<int dim> void fitRoof(int i, double alpha, const Cover* cover);
     template<int dim> void build(const std::vector<double>& alpha, const std::vector<int>& elements,
         const std::vector<int>& nodes, const Cover* cover);
@@ -84,7 +102,7 @@ private:
     std::vector<double> level_, normalSum_, coherence_;
     std::vector<int> bandElements_, levelNodes_;   // elements with a node in the band; their nodes
     std::vector<char> hasLevel_;
-    long nFronts_ = 0, nRoofs_ = 0;
+    long nFronts_ = 0, nRoofs_ = 0, nFilms_ = 0;
 };
 
 } // namespace flotsam

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "equations/filmFit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flotsam
+{
+
+namespace
+{
+
+/// Newton steps, at most, and the step after which a fit counts as found.
+constexpr int nIterations = 8;
+constexpr double lastStep = 0.05;
+/// Against its neighbours the fitted cell counts this much.
+constexpr double ownWeight = 4;
+/// What the means leave undetermined stays where it is (curvature and taper: zero).
+constexpr double damping = 1e-3;
+/// Longest step of an unknown, and the thinnest film.
+constexpr double longestStep = 0.5, thinnest = 0.01;
+/// What one cell resolves: more is not a film, but a corner or an end.
+constexpr double largestCurvature = 0.25, largestTaper = 0.5;
+
+/// Unknowns: middle, tilt, curvature, thickness, taper.
+template<int dim>
+struct Layout
+{
+    static constexpr int tangents = dim - 1, tilt = 1, curvature = 1 + tangents, thickness = curvature + tangents*dim/2,
+        taper = thickness + 1, size = taper + tangents;
+};
+
+/// Derivatives of the middle and of the thickness by their unknowns.
+template<int dim>
+void shapeFunctions(const double* along, double* shape)
+{
+    using L = Layout<dim>;
+    shape[0] = shape[L::thickness] = 1;
+    int k = L::curvature;
+    for (int d = 0; d < L::tangents; ++d)
+    {
+        shape[L::tilt + d] = shape[L::taper + d] = along[d];
+        for (int c = d; c < L::tangents; ++c)
+        {
+            shape[k++] = along[d]*along[c]*(c == d ? 0.5 : 1);
+        }
+    }
+}
+
+/// Gauss elimination without pivots: the matrix is symmetric and positive definite.
+template<int n>
+void solve(double (&a)[n][n], double (&b)[n])
+{
+    for (int k = 0; k < n; ++k)
+    {
+        for (int r = k + 1; r < n; ++r)
+        {
+            const double factor = a[r][k]/a[k][k];
+            for (int c = k; c < n; ++c)
+            {
+                a[r][c] -= factor*a[k][c];
+            }
+            b[r] -= factor*b[k];
+        }
+    }
+    for (int k = n - 1; k >= 0; --k)
+    {
+        for (int c = k + 1; c < n; ++c)
+        {
+            b[k] -= a[k][c]*b[c];
+        }
+        b[k] /= a[k][k];
+    }
+}
+
+/// Mean of a film over a cell and its derivatives by middle and thickness (in units of 1/steepness).
+struct FilmMean { double value, byMiddle, byThickness; };
+
+FilmMean filmMean(const FilmSample& cell, double fromMiddle, double thickness, double steepness)
+{
+    const auto front = [&](double distance) { return std::exp(std::clamp(steepness*(0.5*thickness + distance), -150., 150.)); };
+    const double upper = front(-fromMiddle), lower = front(fromMiddle), inverse = 1/cell.growth;
+    const double u1 = 1 + upper*cell.growth, u2 = 1 + upper*inverse, l1 = 1 + lower*cell.growth, l2 = 1 + lower*inverse;
+    const double slopeUp = (u1 - u2)/(u1*u2*cell.thickness), slopeLow = (l1 - l2)/(l1*l2*cell.thickness);
+    return {std::log(u1/u2*(l1/l2))/cell.thickness - 1, slopeUp - slopeLow, 0.5*(slopeUp + slopeLow)};
+}
+
+template<int dim>
+double slopeLength(const double* tilt)
+{
+    double square = 1;
+    for (int d = 0; d < dim - 1; ++d)
+    {
+        square += tilt[d]*tilt[d];
+    }
+    return std::sqrt(square);
+}
+
+/// A plane film of uniform thickness with the first moment of the samples.
+template<int dim>
+void startFilm(const FilmSample* samples, int nSamples, double* unknown)
+{
+    double liquid = 0, moment = 0, sum = 0, squares = 0;
+    for (int k = 0; k < nSamples; ++k)
+    {
+        liquid += samples[k].alpha;
+        moment += samples[k].alpha*samples[k].across;
+        sum += samples[k].across/nSamples;
+        squares += samples[k].across*samples[k].across/nSamples;
+    }
+    std::fill_n(unknown, Layout<dim>::size, 0.);
+    unknown[0] = moment/liquid;
+    unknown[Layout<dim>::thickness] = liquid/nSamples*std::sqrt(12*(squares - sum*sum) + 1);
+}
+
+} // namespace
+
+SlabMean slabMean(double psi, double thickness, double growth)
+{
+    const double x = std::exp(std::clamp(psi, -300., 300.));
+    const double up = x*growth, low = x/growth;
+    return {std::log((1 + up)/(1 + low))/thickness, (up - low)/((1 + up)*(1 + low)*thickness)};
+}
+
+template<int dim>
+Film<dim> fitFilm(const FilmSample* samples, int nSamples, double steepness)
+{
+    using L = Layout<dim>;
+    double unknown[L::size];
+    startFilm<dim>(samples, nSamples, unknown);
+    double residual = 0;
+    for (int iteration = 0; iteration < nIterations; ++iteration)
+    {
+        double matrix[L::size][L::size] = {}, right[L::size] = {};
+        const double scale = steepness/slopeLength<dim>(&unknown[L::tilt]);
+        residual = 0;
+        for (int k = 0; k < nSamples; ++k)
+        {
+            double shape[L::size], middle = 0, thickness = 0;
+            shapeFunctions<dim>(samples[k].along, shape);
+            for (int i = 0; i < L::size; ++i)
+            {
+                (i < L::thickness ? middle : thickness) += shape[i]*unknown[i];
+            }
+            const FilmMean mean = filmMean(samples[k], samples[k].across - middle, thickness, scale);
+            const double defect = samples[k].alpha - mean.value, weight = k == 0 ? ownWeight : 1;
+            residual += k == 0 ? 0 : defect*defect;
+            for (int i = 0; i < L::size; ++i)
+            {
+                shape[i] *= scale*(i < L::thickness ? mean.byMiddle : mean.byThickness);
+            }
+            for (int i = 0; i < L::size; ++i)
+            {
+                right[i] += weight*shape[i]*defect;
+                for (int j = 0; j < L::size; ++j)
+                {
+                    matrix[i][j] += weight*shape[i]*shape[j];
+                }
+            }
+        }
+        for (int i = 0; i < L::size; ++i)
+        {
+            matrix[i][i] += damping;
+            const bool isToZero = (i >= L::curvature && i < L::thickness) || i >= L::taper;
+            right[i] -= isToZero ? damping*unknown[i] : 0;
+        }
+        solve(matrix, right);
+        if (std::none_of(right, right + L::size, [](double step) { return std::abs(step) > lastStep; }))
+        {
+            break;
+        }
+        for (int i = 0; i < L::size; ++i)
+        {
+            unknown[i] += std::clamp(right[i], -longestStep, longestStep);
+        }
+        unknown[L::thickness] = std::max(unknown[L::thickness], thinnest);
+        const auto limit = [&](int first, int last, double most) {
+            std::for_each(unknown + first, unknown + last, [most](double& x) { x = std::clamp(x, -most, most); });
+        };
+        limit(L::curvature, L::thickness, largestCurvature);
+        limit(L::taper, L::size, largestTaper);
+    }
+    Film<dim> film;
+    film.middle = unknown[0];
+    film.thickness = unknown[L::thickness];
+    film.residual = residual;
+    std::copy_n(&unknown[L::tilt], L::tangents, film.tilt);
+    std::copy_n(&unknown[L::taper], L::tangents, film.taper);
+    return film;
+}
+
+template<int dim>
+void fillFilm(Film<dim>& film, const FilmSample& own, double steepness)
+{
+    const double scale = steepness/slopeLength<dim>(film.tilt);
+    double middle = film.middle, wedge = 0;
+    for (int d = 0; d < dim - 1; ++d)
+    {
+        middle += film.tilt[d]*own.along[d];
+        wedge += film.taper[d]*own.along[d];
+    }
+    double thickness = film.thickness + wedge, thinner = 0, thicker = 1e30;
+    for (int iteration = 0; iteration < 30; ++iteration)
+    {
+        const FilmMean mean = filmMean(own, own.across - middle, thickness, scale);
+        const double defect = own.alpha - mean.value;
+        if (std::abs(defect) < 1e-9)
+        {
+            break;
+        }
+        (defect < 0 ? thicker : thinner) = thickness;
+        const double slope = scale*mean.byThickness;
+        const double next = thickness + (slope > 1e-12 ? std::clamp(defect/slope, -2., 2.) : defect < 0 ? -2. : 2.);
+        thickness = next > thinner && next < thicker ? next : 0.5*(thinner + std::min(thicker, thinner + 2));
+    }
+    film.thickness = thickness - wedge;
+}
+
+template struct Film<2>;
+template struct Film<3>;
+template Film<2> fitFilm<2>(const FilmSample*, int, double);
+template Film<3> fitFilm<3>(const FilmSample*, int, double);
+template void fillFilm<2>(Film<2>&, const FilmSample&, double);
+template void fillFilm<3>(Film<3>&, const FilmSample&, double);
+
+} // namespace flotsam

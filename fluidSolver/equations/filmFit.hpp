@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// A film (2D: filament) of one phase that is too thin for its two surfaces to lie in different dual cells, fitted to the
+/// means of a dual cell and of its neighbours by least squares.
+///
+/// With s along a normal of the film and z in its plane: middle m(z) = c + b.z + z.K z/2, thickness t(z) = t0 + t1.z, and
+/// alpha = S((t/2 - (s - m))/delta) + S((t/2 + (s - m))/delta) - 1, S(x) = 1/(1 + exp(-x)).
+/// The curvature K only keeps the fit from moving the film: the neighbours on an arc lie on one side of its tangent. The thickness
+/// must vary inside the cell, or it is carried along the film to first order only.
+#pragma once
+
+namespace flotsam
+{
+
+/// Mean of S(psi) over a slab: value and derivative by psi at its middle. growth = exp(half the thickness).
+struct SlabMean { double value, slope; };
+SlabMean slabMean(double psi, double thickness, double growth);
+
+/// A dual cell: its centroid in units of the fitted cell's thickness h, and the mean of the film's phase.
+struct FilmSample
+{
+    double across, along[2];    ///< s and z
+    double thickness, growth;   ///< of the slab with the cell's second moment, over delta; exp(thickness/2)
+    double alpha;
+};
+
+template<int dim>
+struct Film
+{
+    static constexpr int tangents = dim - 1;
+    double middle, thickness;           ///< at z = 0 [h]
+    double tilt[tangents], taper[tangents];
+    double residual;                    ///< sum of the squared differences of the other cells' means
+};
+
+/// samples[0] is the cell that is fitted; steepness = h/delta.
+template<int dim> Film<dim> fitFilm(const FilmSample* samples, int nSamples, double steepness);
+
+/// Changes the thickness so that the mean of samples[0] is met.
+template<int dim> void fillFilm(Film<dim>& film, const FilmSample& own, double steepness);
+
+} // namespace flotsam

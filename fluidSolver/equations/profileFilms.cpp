@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Cells that hold both surfaces of a film: found by what one front misses in the neighbours.
+#include "equations/filmFit.hpp"
+#include "equations/profileReconstruction.hpp"
+
+#include "geometry/cover.hpp"
+
+namespace flotsam
+{
+
+namespace
+{
+
+constexpr int maxRing = 128;
+/// A surface is thick where the cell's neighbours reach both phases up to this.
+constexpr double pureLimit = 0.01;
+/// A front whose neighbours are met this well needs no film; a film must meet them by this factor better.
+constexpr double frontIsGood = 1e-2, filmIsBetter = 0.1;
+/// Largest thickness of a film, of the cell's.
+constexpr double thickFilm = 4;
+
+template<int dim>
+void normalise(double (&v)[dim])
+{
+    double square = 1e-300;
+    for (const double x : v)
+    {
+        square += x*x;
+    }
+    for (double& x : v)
+    {
+        x /= std::sqrt(square);
+    }
+}
+
+/// About the eigenvector of the largest eigenvalue, by powers; the fit turns what is left.
+template<int dim>
+void commonDirection(const double (&tensor)[dim][dim], double (&direction)[dim])
+{
+    int largest = 0;
+    for (int d = 1; d < dim; ++d)
+    {
+        largest = tensor[d][d] > tensor[largest][largest] ? d : largest;
+    }
+    std::copy_n(tensor[largest], dim, direction);
+    for (int iteration = 0; iteration < 4; ++iteration)
+    {
+        normalise(direction);
+        double image[dim] = {};
+        for (int d = 0; d < dim; ++d)
+        {
+            for (int c = 0; c < dim; ++c)
+            {
+                image[d] += tensor[d][c]*direction[c];
+            }
+        }
+        std::copy_n(image, dim, direction);
+    }
+    normalise(direction);
+}
+
+} // namespace
+
+/// The node and its neighbours.
+template<int dim>
+int ProfileReconstruction::findRing(int i, const Cover* cover, int* ring) const
+{
+    int size = 1;
+    ring[0] = i;
+    for (int k = graph_.nodeElementStart[i]; k < graph_.nodeElementStart[i + 1]; ++k)
+    {
+        const int e = graph_.nodeElement[k];
+        if (cover && cover->state[e] == ElementState::Solid)
+        {
+            continue;
+        }
+        const int* nodes = &mesh_.elements[std::size_t(e)*(dim + 1)];
+        for (int a = 0; a <= dim && size < maxRing; ++a)
+        {
+            if (std::find(ring, ring + size, nodes[a]) == ring + size)
+            {
+                ring[size++] = nodes[a];
+            }
+        }
+    }
+    return size;
+}
+
+/// What the front of ring[0] misses in its neighbours: sum of squared differences of alpha.
+template<int dim>
+double ProfileReconstruction::frontResidual(const int* ring, int size, const std::vector<double>& alpha) const
+{
+    const NodeProfile& p = profile_[ring[0]];
+    double sum = 0;
+    for (int k = 1; k < size; ++k)
+    {
+        double psi = p.value;
+        for (int d = 0; d < dim; ++d)
+        {
+            psi += p.steepness*p.normal[d]*(mesh_.x[std::size_t(ring[k])*dim + d] + cells_.centroid(ring[k])[d] - mesh_.x[std::size_t(ring[0])*dim + d]);
+        }
+        const double thickness = std::min(2*cells_.halfWidth(ring[k], p.normal)*p.steepness, 600.);
+        const double defect = slabMean(psi, thickness, std::exp(0.5*thickness)).value - alpha[ring[k]];
+        sum += defect*defect;
+    }
+    return sum;
+}
+
+/// axes[0]: the direction, without its sign, that the elements' normals around a node have in common; the others complete it.
+template<int dim>
+void ProfileReconstruction::findFilmAxes(int i, const std::vector<double>& alpha, const Cover* cover, double (&axes)[dim][dim]) const
+{
+    constexpr int n = dim + 1;
+    double tensor[dim][dim] = {};
+    for (int k = graph_.nodeElementStart[i]; k < graph_.nodeElementStart[i + 1]; ++k)
+    {
+        const int e = graph_.nodeElement[k];
+        if (cover && cover->state[e] == ElementState::Solid)
+        {
+            continue;
+        }
+        double gradient[dim] = {}, length = 1e-30, weight = 0;
+        for (int a = 0; a < n; ++a)
+        {
+            const int node = mesh_.elements[std::size_t(e)*n + a];
+            weight += variation(alpha[node]);
+            for (int d = 0; d < dim; ++d)
+            {
+                gradient[d] += level_[node]*mesh_.gradN[(std::size_t(e)*n + a)*dim + d];
+            }
+        }
+        for (int d = 0; d < dim; ++d)
+        {
+            length += gradient[d]*gradient[d];
+        }
+        weight *= weight*mesh_.volume[e]/std::sqrt(length);
+        for (int d = 0; d < dim; ++d)
+        {
+            for (int c = 0; c < dim; ++c)
+            {
+                tensor[d][c] += weight*gradient[d]*gradient[c];
+            }
+        }
+    }
+    commonDirection(tensor, axes[0]);
+    const double* m = axes[0];
+    if constexpr (dim == 2)
+    {
+        axes[1][0] = -m[1];
+        axes[1][1] = m[0];
+    }
+    else
+    {
+        const bool isAlongX = std::abs(m[0]) > 0.6;
+        axes[1][0] = isAlongX ? -m[2] : 0;
+        axes[1][1] = isAlongX ? 0 : m[2];
+        axes[1][2] = isAlongX ? m[0] : -m[1];
+        normalise(axes[1]);
+        for (int d = 0; d < 3; ++d)
+        {
+            const int b = (d + 1) % 3, c = (d + 2) % 3;
+            axes[2][d] = m[b]*axes[1][c] - m[c]*axes[1][b];
+        }
+    }
+}
+
+/// Node j's cell in the axes of a film at node i, lengths in units of `length`.
+template<int dim>
+FilmSample ProfileReconstruction::sampleOf(int i, int j, double share, const double (&axes)[dim][dim], double length) const
+{
+    FilmSample sample;
+    double place[3] = {};
+    for (int d = 0; d < dim; ++d)
+    {
+        const double x = mesh_.x[std::size_t(j)*dim + d] + cells_.centroid(j)[d] - mesh_.x[std::size_t(i)*dim + d];
+        for (int c = 0; c < dim; ++c)
+        {
+            place[c] += axes[c][d]*x/length;
+        }
+    }
+    sample.across = place[0];
+    std::copy_n(place + 1, 2, sample.along);
+    sample.thickness = std::min(2*cells_.halfWidth(j, axes[0])*profile_[i].steepness, 300.);
+    sample.growth = std::exp(0.5*sample.thickness);
+    sample.alpha = share;
+    return sample;
+}
+
+/// Whether node i, which has a front, is better described by a film; if so, it is one.
+template<int dim>
+bool ProfileReconstruction::fitFilm(int i, const std::vector<double>& alpha, bool isCoherent, const Cover* cover)
+{
+    int ring[maxRing];
+    const int size = findRing<dim>(i, cover, ring);
+    double least = 1, most = 0, levels = 0;
+    for (int k = 0; k < size; ++k)
+    {
+        least = std::min(least, alpha[ring[k]]);
+        most = std::max(most, alpha[ring[k]]);
+        levels += level_[ring[k]] - level_[i];
+    }
+    const bool hasGas = least < pureLimit, hasLiquid = most > 1 - pureLimit;
+    if (isCoherent && hasGas && hasLiquid)
+    {
+        return false;
+    }
+    const double residual = frontResidual<dim>(ring, size, alpha);
+    if (residual < frontIsGood)
+    {
+        return false;
+    }
+    NodeProfile& p = profile_[i];
+    const bool isGas = hasGas == hasLiquid ? levels > 0 : hasLiquid;
+    double axes[dim][dim];
+    findFilmAxes<dim>(i, alpha, cover, axes);
+    const double length = 2*cells_.halfWidth(i, axes[0]), steepness = length*p.steepness;
+    FilmSample samples[maxRing];
+    for (int k = 0; k < size; ++k)
+    {
+        samples[k] = sampleOf<dim>(i, ring[k], isGas ? 1 - alpha[ring[k]] : alpha[ring[k]], axes, length);
+    }
+    Film<dim> film = flotsam::fitFilm<dim>(samples, size, steepness);
+    if (!(film.residual < filmIsBetter*residual))
+    {
+        return false;
+    }
+    fillFilm(film, samples[0], steepness);
+    if (!(film.thickness < thickFilm))
+    {
+        return false;
+    }
+    p.kind = NodeProfile::Kind::Film;
+    p.isGas = isGas;
+    double slope = 1;
+    for (const double t : film.tilt)
+    {
+        slope += t*t;
+    }
+    slope = std::sqrt(slope);
+    p.value = steepness/slope*(0.5*film.thickness + film.middle);
+    p.otherValue = steepness/slope*(0.5*film.thickness - film.middle);
+    for (int d = 0; d < dim; ++d)
+    {
+        p.normal[d] = axes[0][d]/slope;
+        p.taper[d] = 0;
+        for (int c = 0; c < dim - 1; ++c)
+        {
+            p.normal[d] -= film.tilt[c]*axes[c + 1][d]/slope;
+            p.taper[d] += 0.5*film.taper[c]*axes[c + 1][d]/slope;
+        }
+    }
+    return true;
+}
+
+template bool ProfileReconstruction::fitFilm<2>(int, const std::vector<double>&, bool, const Cover*);
+template bool ProfileReconstruction::fitFilm<3>(int, const std::vector<double>&, bool, const Cover*);
+
+} // namespace flotsam

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "equations/filmFit.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <vector>
+
+using namespace flotsam;
+
+namespace
+{
+
+constexpr double steepness = 5;
+
+struct Shape { double middle, tilt, curvature, thickness, taper; };
+
+/// Means of a film, bent and tapered along the first tangent, over the cells of a block of 3^dim.
+template<int dim>
+std::vector<FilmSample> samplesOf(const Shape& shape)
+{
+    std::vector<FilmSample> samples;
+    const double scale = steepness/std::sqrt(1 + shape.tilt*shape.tilt), growth = std::exp(0.5*steepness);
+    for (int k = 0; k < (dim == 2 ? 9 : 27); ++k)
+    {
+        const auto place = [k](int stride) { return double((k/stride + 1) % 3) - 1; };  // k = 0: the middle of the block
+        FilmSample s{place(1), {place(3), dim == 3 ? place(9) : 0}, steepness, growth, 0};
+        const double z = s.along[0], half = 0.5*(shape.thickness + shape.taper*z);
+        const double middle = shape.middle + shape.tilt*z + 0.5*shape.curvature*z*z;
+        s.alpha = slabMean(scale*(half - s.across + middle), steepness, growth).value
+            + slabMean(scale*(half + s.across - middle), steepness, growth).value - 1;
+        samples.push_back(s);
+    }
+    return samples;
+}
+
+template<int dim>
+void checkRecovered(const Shape& shape)
+{
+    const std::vector<FilmSample> samples = samplesOf<dim>(shape);
+    REQUIRE(samples[0].across == 0);
+    Film<dim> film = fitFilm<dim>(samples.data(), int(samples.size()), steepness);
+    CHECK(std::abs(film.middle - shape.middle) < 0.02);
+    CHECK(std::abs(film.tilt[0] - shape.tilt) < 0.02);
+    CHECK(std::abs(film.thickness - shape.thickness) < 0.02);
+    CHECK(std::abs(film.taper[0] - shape.taper) < 0.02);
+    CHECK(film.residual < 1e-3);
+    film.thickness += 0.3;
+    fillFilm(film, samples[0], steepness);
+    CHECK(std::abs(film.thickness - shape.thickness) < 0.02);
+}
+
+} // namespace
+
+TEST_CASE("mean of the profile over a slab, and its derivative")
+{
+    const double thickness = 3, growth = std::exp(1.5), step = 1e-4;
+    for (const double psi : {-4., -0.5, 0., 2.})
+    {
+        double sum = 0;
+        for (int k = 0; k < 3000; ++k)
+        {
+            sum += 1/(1 + std::exp(-(psi + thickness*((k + 0.5)/3000 - 0.5))))/3000;
+        }
+        const SlabMean mean = slabMean(psi, thickness, growth);
+        CHECK(mean.value == doctest::Approx(sum).epsilon(1e-6));
+        const double difference = slabMean(psi + step, thickness, growth).value - slabMean(psi - step, thickness, growth).value;
+        CHECK(mean.slope == doctest::Approx(difference/(2*step)).epsilon(1e-6));
+    }
+}
+
+TEST_CASE("the means of a film, straight, tilted, tapered or bent, give the film back")
+{
+    for (const Shape& shape : {Shape{0, 0, 0, 1, 0}, Shape{0.3, 0.1, 0, 0.6, 0}, Shape{-0.2, 0, 0, 1.2, 0.2}, Shape{0.1, 0, 0.15, 0.8, 0}})
+    {
+        checkRecovered<2>(shape);
+        checkRecovered<3>(shape);
+    }
+}
