@@ -47,7 +47,7 @@ void shapeFunctions(const double* along, double* shape)
     }
 }
 
-/// Gauss elimination without pivots: the matrix is symmetric and positive definite.
+/// Elimination without pivots, upper triangle only: the matrix is symmetric and positive definite.
 template<int n>
 void solve(double (&a)[n][n], double (&b)[n])
 {
@@ -55,8 +55,8 @@ void solve(double (&a)[n][n], double (&b)[n])
     {
         for (int r = k + 1; r < n; ++r)
         {
-            const double factor = a[r][k]/a[k][k];
-            for (int c = k; c < n; ++c)
+            const double factor = a[k][r]/a[k][k];
+            for (int c = r; c < n; ++c)
             {
                 a[r][c] -= factor*a[k][c];
             }
@@ -152,7 +152,7 @@ Film<dim> fitFilm(const FilmSample* samples, int nSamples, double steepness)
             for (int i = 0; i < L::size; ++i)
             {
                 right[i] += weight*shape[i]*defect;
-                for (int j = 0; j < L::size; ++j)
+                for (int j = i; j < L::size; ++j)
                 {
                     matrix[i][j] += weight*shape[i]*shape[j];
                 }

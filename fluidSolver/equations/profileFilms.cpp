@@ -190,20 +190,29 @@ FilmSample ProfileReconstruction::sampleOf(int i, int j, double share, const dou
 template<int dim>
 bool ProfileReconstruction::fitFilm(int i, const std::vector<double>& alpha, bool isCoherent, const Cover* cover)
 {
+    bool hasGas = false, hasLiquid = false;
+    double levels = 0;
+    for (int k = graph_.nodeElementStart[i]; k < graph_.nodeElementStart[i + 1]; ++k)
+    {
+        const int e = graph_.nodeElement[k];
+        if (cover && cover->state[e] == ElementState::Solid)
+        {
+            continue;
+        }
+        const int* nodes = &mesh_.elements[std::size_t(e)*(dim + 1)];
+        for (int a = 0; a <= dim; ++a)
+        {
+            hasGas = hasGas || alpha[nodes[a]] < pureLimit;
+            hasLiquid = hasLiquid || alpha[nodes[a]] > 1 - pureLimit;
+            levels += level_[nodes[a]] - level_[i];
+        }
+        if (isCoherent && hasGas && hasLiquid)
+        {
+            return false;
+        }
+    }
     int ring[maxRing];
     const int size = findRing<dim>(i, cover, ring);
-    double least = 1, most = 0, levels = 0;
-    for (int k = 0; k < size; ++k)
-    {
-        least = std::min(least, alpha[ring[k]]);
-        most = std::max(most, alpha[ring[k]]);
-        levels += level_[ring[k]] - level_[i];
-    }
-    const bool hasGas = least < pureLimit, hasLiquid = most > 1 - pureLimit;
-    if (isCoherent && hasGas && hasLiquid)
-    {
-        return false;
-    }
     const double residual = frontResidual<dim>(ring, size, alpha);
     if (residual < frontIsGood)
     {
