@@ -141,18 +141,25 @@ TEST_CASE("a bar a hundred times lighter than the water, thrown at a stop, is st
         channel.timers);
     run.start(channel.rest(), true);
     double fastest = 0, deepest = 0, mismatch = 0;
-    int touching = 0;
-    for (int k = 0; k < 60; ++k)
+    int touching = 0, rejected = 0;
+    // 0.02 s take the bar one element: a rebound within a step may leave it two from where it was predicted, then the program repeats the step smaller
+    for (double dt = 0.02; run.fluid().state().time < 1.2; )
     {
-        const StepResult result = run.step(0.02);
-        REQUIRE(result.isAccepted);
+        const StepResult result = run.step(dt);
+        if (!result.isAccepted)
+        {
+            REQUIRE(++rejected <= 3);
+            dt *= 0.5;
+            continue;
+        }
+        dt = 0.02;
         const BodyRecord bar = run.records()[0];
         fastest = std::max(fastest, bar.motion.velocity.norm());
         deepest = std::max(deepest, run.coupling()->largestOverlap());
         mismatch = std::max(mismatch, result.contactMismatch);
         touching += bar.contacts > 0;
     }
-    std::printf("light bar: fastest %.3f m/s, deepest overlap %.2e m, contact mismatch %.3f, touching in %d steps\n", fastest, deepest, mismatch, touching);
+    std::printf("light bar: fastest %.3f m/s, deepest overlap %.2e m, contact mismatch %.3f, touching in %d steps, %d rejected\n", fastest, deepest, mismatch, touching, rejected);
     CHECK(touching > 10);
     CHECK(fastest < 1.5); // measured 1.22
     CHECK(deepest < 0.1*side); // the spring takes the bar and its added mass: 0.02 m if it landed on one sphere
