@@ -11,12 +11,13 @@ namespace
 {
 
 /// Newton steps, at most, and the step after which a fit counts as found.
-constexpr int nIterations = 8;
+constexpr int nIterations = 16;
 constexpr double lastStep = 0.05;
 /// Against its neighbours the fitted cell counts this much.
 constexpr double ownWeight = 4;
-/// What the means leave undetermined stays where it is (curvature and taper: zero).
-constexpr double damping = 1e-3;
+/// Curvature and taper that the means leave undetermined are zero. A fit that has not been found when the steps are over makes no film: it would
+/// be another one with every change of the last digits.
+constexpr double firstDamping = 1e-3, ridge = 1e-3;
 /// Longest step of an unknown, and the thinnest film.
 constexpr double longestStep = 0.5, thinnest = 0.01;
 /// What one cell resolves: more is not a film, but a corner or an end.
@@ -122,56 +123,81 @@ SlabMean slabMean(double psi, double thickness, double growth)
     return {std::log((1 + up)/(1 + low))/thickness, (up - low)/((1 + up)*(1 + low)*thickness)};
 }
 
+namespace
+{
+
+/// Normal equations of the fit at given unknowns.
 template<int dim>
-Film<dim> fitFilm(const FilmSample* samples, int nSamples, double steepness)
+struct NormalEquations
 {
     using L = Layout<dim>;
-    double unknown[L::size];
-    startFilm<dim>(samples, nSamples, unknown);
-    double residual = 0;
-    for (int iteration = 0; iteration < nIterations; ++iteration)
+    double matrix[L::size][L::size] = {}, right[L::size] = {};
+    double cost = 0;        // what is minimised
+    double residual = 0;    // sum of squared differences of the other cells
+
+    NormalEquations(const FilmSample* samples, int nSamples, double steepness, const double* unknown)
     {
-        double matrix[L::size][L::size] = {}, right[L::size] = {};
         const double scale = steepness/slopeLength<dim>(&unknown[L::tilt]);
-        residual = 0;
         for (int k = 0; k < nSamples; ++k)
         {
-            double shape[L::size], middle = 0, thickness = 0;
-            shapeFunctions<dim>(samples[k].along, shape);
-            for (int i = 0; i < L::size; ++i)
-            {
-                (i < L::thickness ? middle : thickness) += shape[i]*unknown[i];
-            }
-            const FilmMean mean = filmMean(samples[k], samples[k].across - middle, thickness, scale);
-            const double defect = samples[k].alpha - mean.value, weight = k == 0 ? ownWeight : 1;
-            residual += k == 0 ? 0 : defect*defect;
-            for (int i = 0; i < L::size; ++i)
-            {
-                shape[i] *= scale*(i < L::thickness ? mean.byMiddle : mean.byThickness);
-            }
-            for (int i = 0; i < L::size; ++i)
-            {
-                right[i] += weight*shape[i]*defect;
-                for (int j = i; j < L::size; ++j)
-                {
-                    matrix[i][j] += weight*shape[i]*shape[j];
-                }
-            }
+            const double square = addSample(samples[k], k == 0 ? ownWeight : 1, scale, unknown);
+            residual += k == 0 ? 0 : square;
         }
         for (int i = 0; i < L::size; ++i)
         {
-            matrix[i][i] += damping;
-            const bool isToZero = (i >= L::curvature && i < L::thickness) || i >= L::taper;
-            right[i] -= isToZero ? damping*unknown[i] : 0;
+            if (i < L::curvature || (i >= L::thickness && i < L::taper))
+            {
+                continue;
+            }
+            matrix[i][i] += ridge;
+            right[i] -= ridge*unknown[i];
+            cost += ridge*unknown[i]*unknown[i];
         }
-        solve(matrix, right);
-        if (std::none_of(right, right + L::size, [](double step) { return std::abs(step) > lastStep; }))
+    }
+
+    /// Returns the squared difference.
+    double addSample(const FilmSample& sample, double weight, double scale, const double* unknown)
+    {
+        double shape[L::size], middle = 0, thickness = 0;
+        shapeFunctions<dim>(sample.along, shape);
+        for (int i = 0; i < L::size; ++i)
         {
-            break;
+            (i < L::thickness ? middle : thickness) += shape[i]*unknown[i];
+        }
+        const FilmMean mean = filmMean(sample, sample.across - middle, thickness, scale);
+        const double defect = sample.alpha - mean.value;
+        for (int i = 0; i < L::size; ++i)
+        {
+            shape[i] *= scale*(i < L::thickness ? mean.byMiddle : mean.byThickness);
         }
         for (int i = 0; i < L::size; ++i)
         {
-            unknown[i] += std::clamp(right[i], -longestStep, longestStep);
+            right[i] += weight*shape[i]*defect;
+            for (int j = i; j < L::size; ++j)
+            {
+                matrix[i][j] += weight*shape[i]*shape[j];
+            }
+        }
+        cost += weight*defect*defect;
+        return defect*defect;
+    }
+
+    /// Levenberg-Marquardt's step. Returns the largest change.
+    double step(double damping, double* unknown) const
+    {
+        double m[L::size][L::size], change[L::size];
+        std::copy_n(&matrix[0][0], L::size*L::size, &m[0][0]);
+        std::copy_n(right, L::size, change);
+        double largest = 0;
+        for (int i = 0; i < L::size; ++i)
+        {
+            m[i][i] += damping;
+        }
+        solve(m, change);
+        for (int i = 0; i < L::size; ++i)
+        {
+            unknown[i] += std::clamp(change[i], -longestStep, longestStep);
+            largest = std::max(largest, std::abs(change[i]));
         }
         unknown[L::thickness] = std::max(unknown[L::thickness], thinnest);
         const auto limit = [&](int first, int last, double most) {
@@ -179,13 +205,41 @@ Film<dim> fitFilm(const FilmSample* samples, int nSamples, double steepness)
         };
         limit(L::curvature, L::thickness, largestCurvature);
         limit(L::taper, L::size, largestTaper);
+        return largest;
+    }
+};
+
+} // namespace
+
+template<int dim>
+Film<dim> fitFilm(const FilmSample* samples, int nSamples, double steepness)
+{
+    using L = Layout<dim>;
+    double best[L::size], damping = firstDamping;
+    startFilm<dim>(samples, nSamples, best);
+    NormalEquations<dim> atBest(samples, nSamples, steepness, best);
+    bool hasConverged = false;
+    for (int iteration = 0; iteration < nIterations && !hasConverged; ++iteration)
+    {
+        double next[L::size];
+        std::copy_n(best, L::size, next);
+        const double change = atBest.step(damping, next);
+        const NormalEquations<dim> atNext(samples, nSamples, steepness, next);
+        const bool isBetter = atNext.cost <= atBest.cost;
+        if (isBetter)
+        {
+            std::copy_n(next, L::size, best);
+            atBest = atNext;
+        }
+        hasConverged = change < lastStep;
+        damping *= isBetter ? 0.3 : 10;
     }
     Film<dim> film;
-    film.middle = unknown[0];
-    film.thickness = unknown[L::thickness];
-    film.residual = residual;
-    std::copy_n(&unknown[L::tilt], L::tangents, film.tilt);
-    std::copy_n(&unknown[L::taper], L::tangents, film.taper);
+    film.middle = best[0];
+    film.thickness = best[L::thickness];
+    film.residual = hasConverged ? atBest.residual : 1e300;
+    std::copy_n(&best[L::tilt], L::tangents, film.tilt);
+    std::copy_n(&best[L::taper], L::tangents, film.taper);
     return film;
 }
 

@@ -18,6 +18,8 @@ constexpr double pureLimit = 0.01;
 constexpr double frontIsGood = 1e-2, filmIsBetter = 0.1;
 /// Largest thickness of a film, of the cell's.
 constexpr double thickFilm = 4;
+/// Ties are decided the same way whatever the round-off, on any number of ranks.
+constexpr double tie = 1e-6;
 
 template<int dim>
 void normalise(double (&v)[dim])
@@ -40,7 +42,7 @@ void commonDirection(const double (&tensor)[dim][dim], double (&direction)[dim])
     int largest = 0;
     for (int d = 1; d < dim; ++d)
     {
-        largest = tensor[d][d] > tensor[largest][largest] ? d : largest;
+        largest = tensor[d][d] > (1 + tie)*tensor[largest][largest] ? d : largest;
     }
     std::copy_n(tensor[largest], dim, direction);
     for (int iteration = 0; iteration < 4; ++iteration)
@@ -191,7 +193,7 @@ template<int dim>
 bool ProfileReconstruction::fitFilm(int i, const std::vector<double>& alpha, bool isCoherent, const Cover* cover)
 {
     bool hasGas = false, hasLiquid = false;
-    double levels = 0;
+    double levels = 0, levelSize = 0;
     for (int k = graph_.nodeElementStart[i]; k < graph_.nodeElementStart[i + 1]; ++k)
     {
         const int e = graph_.nodeElement[k];
@@ -205,6 +207,7 @@ bool ProfileReconstruction::fitFilm(int i, const std::vector<double>& alpha, boo
             hasGas = hasGas || alpha[nodes[a]] < pureLimit;
             hasLiquid = hasLiquid || alpha[nodes[a]] > 1 - pureLimit;
             levels += level_[nodes[a]] - level_[i];
+            levelSize += std::abs(level_[nodes[a]] - level_[i]);
         }
         if (isCoherent && hasGas && hasLiquid)
         {
@@ -219,7 +222,7 @@ bool ProfileReconstruction::fitFilm(int i, const std::vector<double>& alpha, boo
         return false;
     }
     NodeProfile& p = profile_[i];
-    const bool isGas = hasGas == hasLiquid ? levels > 0 : hasLiquid;
+    const bool isGas = hasGas == hasLiquid ? levels > tie*levelSize : hasLiquid;
     double axes[dim][dim];
     findFilmAxes<dim>(i, alpha, cover, axes);
     const double length = 2*cells_.halfWidth(i, axes[0]), steepness = length*p.steepness;
