@@ -288,8 +288,6 @@ void Fluid::moveInactiveNodes()
 void Fluid::endStep()
 {
     const int dim = mesh_.dim, B = dim + 1;
-    if (supg_) std::swap(state_.fineScale, state_.fineScaleOld);
-    equation_.fineScale(x_, state_.fineScale);  // of this step's history: before the time levels move on
     std::swap(state_.u, state_.uOld);
     state_.pOld = state_.p;
     for (int i = 0; i < mesh_.nNodes; ++i)
@@ -298,6 +296,10 @@ void Fluid::endStep()
         state_.p[i] = x_[std::size_t(i)*B + dim];
     }
     moveInactiveNodes();
+    // With the time levels moved on: du/dt then is -1/2 of the acceleration with BDF2, 0 with BDF1. With all of it held bodies do not stay
+    // (docs/numerics.md, section 2)
+    if (supg_) std::swap(state_.fineScale, state_.fineScaleOld);
+    equation_.fineScale(x_, state_.fineScale);
     equation_.ghostFluxes(x_, ghostFlux_);
     state_.dtOld = state_.dt;
     state_.dt = time_.dt;
