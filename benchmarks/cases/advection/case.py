@@ -8,7 +8,7 @@ import numpy as np
 from runner import foam
 from runner.cases import Run, series
 
-OURS = "transportTable"
+OURS, WIDTH = "transportTable", "0.20"     # the default interfaceWidth
 
 title = """Prescribed velocity: Rider & Kothe's vortex, reversed by cos(pi t/8), disc of radius 0.15; one turn of Zalesak's slotted disc. N cells over the unit
 square, Courant number 0.5. Error: integral of |alpha - alpha at the start| over the disc's area. Ours: `transportTable`, the transport of flotsamFoam
@@ -26,7 +26,7 @@ def test(name, solver, sizes, variant="", quick=0, **options):
 
 
 def ours(name, sizes):
-    return [Run(OURS, n, name, {"test": name, "arguments": [str(n), "no", "0.5", "0.25"]}, quick=n <= 64) for n in sizes]
+    return [Run(OURS, n, name, {"test": name, "arguments": [str(n), "no", "0.5", WIDTH]}, quick=n <= 64) for n in sizes]
 
 
 runs = [
@@ -69,7 +69,7 @@ def prepare(run, do):
 def _ours(run, case):
     with open(os.path.join(case, "log.solver"), encoding="utf-8") as log:
         name = "zalesak" if run.options["test"] == "zalesak" else "vortex T=8"
-        line = [x for x in log if x.startswith(name) and re.search(rf"n +{run.n} delta 0.25", x)][-1]
+        line = [x for x in log if x.startswith(name) and re.search(rf"n +{run.n} delta {WIDTH}", x)][-1]
     values = re.search(r"error ([\d.]+) mass (\S+) .*alpha \[(\S+), 1(\S+)\].*\| ([\d.]+) us/node/step, (\d+) steps", line).groups()
     error, mass, lowest, above, pace, steps = (float(v) for v in values)
     nodes = (run.n + 1)**2
