@@ -13,6 +13,9 @@ namespace
 /// Newton steps, at most, and the step after which a fit counts as found.
 constexpr int nIterations = 16;
 constexpr double lastStep = 0.05;
+/// Most cells that are tried hold no film: by then, at the latest, a film's residual is this near to what is wanted.
+constexpr int trialIterations = 4;
+constexpr double hopeless = 5;
 /// Against its neighbours the fitted cell counts this much.
 constexpr double ownWeight = 4;
 /// Curvature and taper that the means leave undetermined are zero. A fit that has not been found when the steps are over makes no film: it would
@@ -212,7 +215,7 @@ struct NormalEquations
 } // namespace
 
 template<int dim>
-Film<dim> fitFilm(const FilmSample* samples, int nSamples, double steepness)
+Film<dim> fitFilm(const FilmSample* samples, int nSamples, double steepness, double wanted)
 {
     using L = Layout<dim>;
     double best[L::size], damping = firstDamping;
@@ -233,6 +236,10 @@ Film<dim> fitFilm(const FilmSample* samples, int nSamples, double steepness)
         }
         hasConverged = change < lastStep;
         damping *= isBetter ? 0.3 : 10;
+        if (iteration + 1 == trialIterations && atBest.residual > hopeless*wanted)
+        {
+            break;
+        }
     }
     Film<dim> film;
     film.middle = best[0];
@@ -272,8 +279,8 @@ void fillFilm(Film<dim>& film, const FilmSample& own, double steepness)
 
 template struct Film<2>;
 template struct Film<3>;
-template Film<2> fitFilm<2>(const FilmSample*, int, double);
-template Film<3> fitFilm<3>(const FilmSample*, int, double);
+template Film<2> fitFilm<2>(const FilmSample*, int, double, double);
+template Film<3> fitFilm<3>(const FilmSample*, int, double, double);
 template void fillFilm<2>(Film<2>&, const FilmSample&, double);
 template void fillFilm<3>(Film<3>&, const FilmSample&, double);
 

@@ -32,8 +32,8 @@ struct Film
     double residual;                    ///< sum of the squared differences of the other cells' means
 };
 
-/// samples[0] is the cell that is fitted; steepness = h/delta.
-template<int dim> Film<dim> fitFilm(const FilmSample* samples, int nSamples, double steepness);
+/// samples[0] is the cell that is fitted; steepness = h/delta; wanted: residual below which the film is of use. The residual is 1e300 where no fit was found.
+template<int dim> Film<dim> fitFilm(const FilmSample* samples, int nSamples, double steepness, double wanted);
 
 /// Changes the thickness so that the mean of samples[0] is met.
 template<int dim> void fillFilm(Film<dim>& film, const FilmSample& own, double steepness);

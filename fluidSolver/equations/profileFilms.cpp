@@ -16,6 +16,8 @@ constexpr int maxRing = 128;
 constexpr double pureLimit = 0.01;
 /// A front whose neighbours are met this well needs no film; a film must meet them by this factor better.
 constexpr double frontIsGood = 1e-2, filmIsBetter = 0.1;
+/// Cells with less of either phase carry too little for a fit to pay.
+constexpr double leastFilled = 0.03;
 /// Largest thickness of a film, of the cell's.
 constexpr double thickFilm = 4;
 /// Ties are decided the same way whatever the round-off, on any number of ranks.
@@ -192,6 +194,10 @@ FilmSample ProfileReconstruction::sampleOf(int i, int j, double share, const dou
 template<int dim>
 bool ProfileReconstruction::fitFilm(int i, const std::vector<double>& alpha, bool isCoherent, const Cover* cover)
 {
+    if (std::min(alpha[i], 1 - alpha[i]) < leastFilled)
+    {
+        return false;
+    }
     bool hasGas = false, hasLiquid = false;
     double levels = 0, levelSize = 0;
     for (int k = graph_.nodeElementStart[i]; k < graph_.nodeElementStart[i + 1]; ++k)
@@ -231,7 +237,7 @@ bool ProfileReconstruction::fitFilm(int i, const std::vector<double>& alpha, boo
     {
         samples[k] = sampleOf<dim>(i, ring[k], isGas ? 1 - alpha[ring[k]] : alpha[ring[k]], axes, length);
     }
-    Film<dim> film = flotsam::fitFilm<dim>(samples, size, steepness);
+    Film<dim> film = flotsam::fitFilm<dim>(samples, size, steepness, filmIsBetter*residual);
     if (!(film.residual < filmIsBetter*residual))
     {
         return false;
