@@ -117,18 +117,6 @@ void startFilm(const FilmSample* samples, int nSamples, double* unknown)
     unknown[Layout<dim>::thickness] = liquid/nSamples*std::sqrt(12*(squares - sum*sum) + 1);
 }
 
-} // namespace
-
-SlabMean slabMean(double psi, double thickness, double growth)
-{
-    const double x = std::exp(std::clamp(psi, -300., 300.));
-    const double up = x*growth, low = x/growth;
-    return {std::log((1 + up)/(1 + low))/thickness, (up - low)/((1 + up)*(1 + low)*thickness)};
-}
-
-namespace
-{
-
 /// Normal equations of the fit at given unknowns.
 template<int dim>
 struct NormalEquations

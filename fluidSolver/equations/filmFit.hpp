@@ -11,10 +11,6 @@
 namespace flotsam
 {
 
-/// Mean of S(psi) over a slab: value and derivative by psi at its middle. growth = exp(half the thickness).
-struct SlabMean { double value, slope; };
-SlabMean slabMean(double psi, double thickness, double growth);
-
 /// A dual cell: its centroid in units of the fitted cell's thickness h, and the mean of the film's phase.
 struct FilmSample
 {

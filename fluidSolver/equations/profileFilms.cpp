@@ -2,6 +2,7 @@
 /// Cells that hold both surfaces of a film: found by what one front misses in the neighbours.
 #include "equations/filmFit.hpp"
 #include "equations/profileReconstruction.hpp"
+#include "equations/surfaceLevel.hpp"
 
 #include "geometry/cover.hpp"
 
@@ -103,8 +104,7 @@ double ProfileReconstruction::frontResidual(const int* ring, int size, const std
         {
             psi += p.steepness*p.normal[d]*(mesh_.x[std::size_t(ring[k])*dim + d] + cells_.centroid(ring[k])[d] - mesh_.x[std::size_t(ring[0])*dim + d]);
         }
-        const double thickness = std::min(2*cells_.halfWidth(ring[k], p.normal)*p.steepness, 600.);
-        const double defect = slabMean(psi, thickness, std::exp(0.5*thickness)).value - alpha[ring[k]];
+        const double defect = ProfileSlab{psi, 2*cells_.halfWidth(ring[k], p.normal)*p.steepness}.mean() - alpha[ring[k]];
         sum += defect*defect;
     }
     return sum;

@@ -170,7 +170,7 @@ bool FoamFields::isNeeded() const
 void FoamFields::update(const FlowState& state, const Cover* cover, const std::vector<Solid>& solids)
 {
     updateNodal(state, cover, solids);
-    updateCells(cover, solids);
+    updateCells(state, cover, solids);
     updatePatches();
     updatePointFields();
     if (cover) updateSolidFraction(*cover);
@@ -198,17 +198,13 @@ void FoamFields::updateNodal(const FlowState& state, const Cover* cover, const s
     }
 }
 
-void FoamFields::updateCells(const Cover* cover, const std::vector<Solid>& solids)
+void FoamFields::updateCells(const FlowState& state, const Cover* cover, const std::vector<Solid>& solids)
 {
     double mean[nodalWidth];
     const Foam::label nCells = mesh_.nCells();
     std::vector<double> shares;
     if (alpha_ && controls_.numerics.dualCellTransport)
-    {
-        std::vector<double> alpha(adapter_.mesh.nNodes);
-        for (std::size_t i = 0; i < alpha.size(); ++i) alpha[i] = nodal_[i*nodalWidth + Alpha];
-        shares = liquidShares(adapter_.mesh, cover, alpha, controls_.numerics.interfaceWidth);
-    }
+        shares = liquidShares(adapter_.mesh, cover, state.alpha, controls_.numerics.interfaceWidth);
     for (Foam::label c = 0; c < nCells; ++c)
     {
         const bool hasFluid = cellMean(adapter_, cover, nodal_, nodalWidth, c, mean);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "equations/filmFit.hpp"
+#include "equations/surfaceLevel.hpp"
 
 #include <doctest/doctest.h>
 
@@ -27,8 +28,7 @@ std::vector<FilmSample> samplesOf(const Shape& shape)
         FilmSample s{place(1), {place(3), dim == 3 ? place(9) : 0}, steepness, growth, 0};
         const double z = s.along[0], half = 0.5*(shape.thickness + shape.taper*z);
         const double middle = shape.middle + shape.tilt*z + 0.5*shape.curvature*z*z;
-        s.alpha = slabMean(scale*(half - s.across + middle), steepness, growth).value
-            + slabMean(scale*(half + s.across - middle), steepness, growth).value - 1;
+        s.alpha = ProfileSlab{scale*(half - s.across + middle), steepness}.mean() + ProfileSlab{scale*(half + s.across - middle), steepness}.mean() - 1;
         samples.push_back(s);
     }
     return samples;
@@ -51,23 +51,6 @@ void checkRecovered(const Shape& shape)
 }
 
 } // namespace
-
-TEST_CASE("mean of the profile over a slab, and its derivative")
-{
-    const double thickness = 3, growth = std::exp(1.5), step = 1e-4;
-    for (const double psi : {-4., -0.5, 0., 2.})
-    {
-        double sum = 0;
-        for (int k = 0; k < 3000; ++k)
-        {
-            sum += 1/(1 + std::exp(-(psi + thickness*((k + 0.5)/3000 - 0.5))))/3000;
-        }
-        const SlabMean mean = slabMean(psi, thickness, growth);
-        CHECK(mean.value == doctest::Approx(sum).epsilon(1e-6));
-        const double difference = slabMean(psi + step, thickness, growth).value - slabMean(psi - step, thickness, growth).value;
-        CHECK(mean.slope == doctest::Approx(difference/(2*step)).epsilon(1e-6));
-    }
-}
 
 TEST_CASE("the means of a film, straight, tilted, tapered or bent, give the film back")
 {

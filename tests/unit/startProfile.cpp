@@ -173,3 +173,20 @@ TEST_CASE("surface level: the distance from a plane whose profile the dual cells
         }
     }
 }
+
+TEST_CASE("mean of the profile over a slab, and its derivative")
+{
+    const double thickness = 3, step = 1e-4;
+    for (const double psi : {-4., -0.5, 0., 2.})
+    {
+        double sum = 0;
+        for (int k = 0; k < 3000; ++k)
+        {
+            sum += 1/(1 + std::exp(-(psi + thickness*((k + 0.5)/3000 - 0.5))))/3000;
+        }
+        const ProfileSlab slab{psi, thickness};
+        CHECK(slab.mean() == doctest::Approx(sum).epsilon(1e-6));
+        const double difference = ProfileSlab{psi + step, thickness}.mean() - ProfileSlab{psi - step, thickness}.mean();
+        CHECK(slab.slope() == doctest::Approx(difference/(2*step)).epsilon(1e-6));
+    }
+}
