@@ -13,6 +13,8 @@ flotsam_test(gravityWeight verification SOURCES verification/gravityWeight.cpp
   LIBRARIES flotsam_equations flotsam_test_support)
 flotsam_test(uniformMotion verification SOURCES verification/uniformMotion.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
+flotsam_test(fineScale verification SOURCES verification/fineScale.cpp
+  LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(fallingSpray verification SOURCES verification/fallingSpray.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(heldBody verification SOURCES verification/heldBody.cpp

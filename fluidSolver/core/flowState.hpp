@@ -16,7 +16,7 @@ struct FlowState
     std::vector<double> p, pOld;        ///< nNodes pressure at t^n, t^(n-1) [Pa] (full pressure)
     std::vector<double> alpha, alphaOld, alphaOlder; ///< nNodes phase field, 1 liquid
     double startLiquid = -1;            ///< volume of a sharp start field [m^dim]; negative: that of alpha at the nodes
-    std::vector<double> fineScale, fineScaleOld; ///< nElements*dim: u' = -tau r_m of the last two solves [m/s]; the older only for the SUPG phase field
+    std::vector<double> fineScale, fineScaleOld; ///< nElements*dim: u' = -tau r_m of the last two solves [m/s]
 };
 
 } // namespace flotsam

@@ -42,7 +42,8 @@ public:
     /// Writes prescribed velocities and pressures into x (nNodes*(dim+1)).
     void applyConstraints(const std::vector<PatchValues>& values, std::vector<double>& x) const;
 
-    /// u' = -tau (du/dt + a.grad u + (grad p - f)/rho) of the solution x, per element (nElements*dim); du/dt = c0 x + c1 u + c2 uOld of the state as it is.
+    /// u' = -tau (du/dt + a.grad u + (grad p - f)/rho) of the solution x, per element (nElements*dim) [m/s]; du/dt = c0 x + c1 u^n + c2 u^(n-1): the state
+    /// must still hold t^n. The continuity rows then are those of x + u'.
     void fineScale(const std::vector<double>& x, std::vector<double>& result) const;
 
     /// Volume fluxes of the pressure ghost terms between node pairs, for the conservative transport:

@@ -42,7 +42,7 @@ void Fluid::start(FlowState state, bool isSharp)
     if (state_.fineScale.size() != fine)
     {
         state_.fineScale.assign(fine, 0.0);
-        state_.fineScaleOld.assign(supg_ ? fine : 0, 0.0);
+        state_.fineScaleOld.assign(fine, 0.0);
     }
 }
 
@@ -288,6 +288,8 @@ void Fluid::moveInactiveNodes()
 void Fluid::endStep()
 {
     const int dim = mesh_.dim, B = dim + 1;
+    equation_.fineScale(x_, state_.fineScaleOld);   // before the time levels move on: of the step's own residual, that of the continuity rows
+    std::swap(state_.fineScale, state_.fineScaleOld);
     std::swap(state_.u, state_.uOld);
     state_.pOld = state_.p;
     for (int i = 0; i < mesh_.nNodes; ++i)
@@ -296,10 +298,6 @@ void Fluid::endStep()
         state_.p[i] = x_[std::size_t(i)*B + dim];
     }
     moveInactiveNodes();
-    // With the time levels moved on: du/dt then is -1/2 of the acceleration with BDF2, 0 with BDF1. With all of it held bodies do not stay
-    // (docs/numerics.md, section 2)
-    if (supg_) std::swap(state_.fineScale, state_.fineScaleOld);
-    equation_.fineScale(x_, state_.fineScale);
     equation_.ghostFluxes(x_, ghostFlux_);
     state_.dtOld = state_.dt;
     state_.dt = time_.dt;
