@@ -72,12 +72,11 @@ const std::vector<double>& Fluid::halfStep(const std::vector<double>& now, const
 TransportReport Fluid::advancePhase(double dt)
 {
     const std::vector<double>& u = halfStep(state_.u, state_.uOld, dt, workU_);
+    const std::vector<double>& fine = halfStep(state_.fineScale, state_.fineScaleOld, dt, workFine_);
     const std::vector<char>& isFixed = equation_.isPatchPressureFixed();
-    // without u': beside the surface it is an error of first order in time that damps waves (docs/numerics.md, section 4)
     if (isMoved_) setMeanCover(mesh_, start_, *cover_, during_);
     const Cover* during = isMoved_ ? &during_ : cover_;
-    if (!supg_) return transport_.advance(state_.alpha, dt, u, {}, during, patches_, values_, isFixed, ghostFlux_, cover_);
-    const std::vector<double>& fine = halfStep(state_.fineScale, state_.fineScaleOld, dt, workFine_);
+    if (!supg_) return transport_.advance(state_.alpha, dt, u, fine, during, patches_, values_, isFixed, ghostFlux_, cover_);
     supg_->setHistory(state_.alphaOlder, state_.dt);
     return supg_->advance(state_.alpha, dt, u, fine, during, patches_, values_, isFixed, ghostFlux_, cover_);
 }
