@@ -229,8 +229,8 @@ TEST_CASE("a bar falls into water: momentum is kept, the total energy does not r
 {
     const Account a = fallingBar(true, 0.52, 2e-3, 400);
     print("bar falls into water, sinks and lands", a);
-    CHECK(a.defect() < 2e-3*a.weight);  // measured 1.3e-3
-    CHECK(a.rise < 3e-3*a.released);    // measured 1.5e-3
+    CHECK(a.defect() < 2e-3*a.weight);  // measured 1.5e-3
+    CHECK(a.rise < 3e-3*a.released);    // measured 1.7e-3
     CHECK(a.volumeError < 1e-12);
 }
 
@@ -353,7 +353,7 @@ TEST_CASE("the amplitude of a sloshing wave does not grow")
         last = height;
     }
     CHECK(last < 0.99); // viscosity alone: 0.989
-    CHECK(last > 0.97); // measured 0.983 after four and a half periods
+    CHECK(last > 0.97); // measured 0.985 after four and a half periods
 }
 
 /// A wave lower than an element: its gravity must not depend on where between the nodes the surface lies.
@@ -378,6 +378,6 @@ TEST_CASE("a small wave has its period wherever the surface lies in the mesh")
 TEST_CASE("the total energy of a sloshing tank rises by less than 2 % of the wave's")
 {
     const Account a = sloshing(200);
-    CHECK(a.rise < 0.02*waveEnergy); // measured 0.17 J of 16.4 J
+    CHECK(a.rise < 0.02*waveEnergy); // measured 0.18 J of 16.4 J
     CHECK(a.released > -0.01*waveEnergy);
 }
