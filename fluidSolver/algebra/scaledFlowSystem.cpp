@@ -56,6 +56,7 @@ void ScaledFlowSystem::setDiagonals()
             ghostPressure[g.node[j]] += g.pressureFactor*g.jumpPressure[j]*g.jumpPressure[j];
         }
     velocity_.set(*system_, ghost);
+    constexpr double ofDiagonal = 2.0/(D + 2);  // diagonal of a consistent mass matrix over its row's sum: only smooth pressures see the sum
     for (int i = 0; i < mesh_.nOwned; ++i)
     {
         double* s = &scale_[std::size_t(i)*B_];
@@ -70,7 +71,7 @@ void ScaledFlowSystem::setDiagonals()
         for (int r = 0; r < D; ++r) trace += a[r*D + r] + ghost[i];
         std::fill(s, s + D, 1/std::sqrt(trace/D));
         // PSPG and ghost terms act beside the viscous part and bound its inverse where the fluid part is a sliver
-        viscousPressure_[i] = float(1/(system_->pressureMass[i] + system_->matrix.pressure[graph_.diagonal[i]] + ghostPressure[i]));
+        viscousPressure_[i] = float(1/(ofDiagonal*system_->pressureMass[i] + system_->matrix.pressure[graph_.diagonal[i]] + ghostPressure[i]));
         s[D] = 1/std::sqrt(schurDiagonal(*system_, graph_, i) + ghostPressure[i]);
     }
 }
