@@ -56,6 +56,7 @@ struct FlowSystem
     std::vector<NodeConstraint> constraints;    ///< owned nodes
     std::vector<char> isPressureFixed;          ///< nNodes
     std::vector<char> isActive;                 ///< nNodes: has a fluid element
+    std::vector<char> isLight;                  ///< nOwned: beside elements far denser than the node itself (gas beside water)
     std::vector<double> dualVolume;             ///< nOwned: fluid part [m^dim]
     bool hasPressureLevel = false;              ///< some node has its pressure prescribed (all ranks)
     bool isNewMatrix = true;                    ///< assembled since the last solve; else only right-hand sides of solids have changed

@@ -145,6 +145,7 @@ void ScaledFlowSystem::preconditionUnscaled(const double* r)
     const FlowOperator op = product();
     velocity_.solve(r, scale_.data(), local_.data());
     op.project(local_.data());
+    velocity_.relaxLightNodes(r, scale_.data(), local_.data());
     halo_.update(local_.data(), B_);
     if (!solids_.isEmpty())
     {

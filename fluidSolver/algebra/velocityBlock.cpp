@@ -40,6 +40,40 @@ void VelocityBlock::setT(const FlowSystem& system, const std::vector<double>& gh
     }
 }
 
+void VelocityBlock::findLightNodes(const FlowSystem& system)
+{
+    std::vector<char> isHeld(nOwned_, 0);
+    for (const NodeConstraint& c : system.constraints) isHeld[c.node] = 1;
+    lightNodes_.clear();
+    for (int i = 0; i < nOwned_; ++i)
+        if (system.isActive[i] && system.isLight[i] && !isHeld[i]) lightNodes_.push_back(i);
+}
+
+template<int D>
+void VelocityBlock::relaxNode(int i, const double* r, const double* scale, double* z) const
+{
+    constexpr int B = D + 1;
+    double rest[D];
+    const double unscaled = 1/scale[std::size_t(i)*B];
+    for (int a = 0; a < D; ++a) rest[a] = r[std::size_t(i)*B + a]*unscaled;
+    for (int k = graph_.rowStart[i]; k < graph_.rowStart[i + 1]; ++k)
+    {
+        const int j = graph_.column[k];
+        if (j == i || j >= nOwned_) continue;
+        const double *block = &system_->matrix.velocity[std::size_t(k)*D*D], *v = z + std::size_t(j)*B;
+        for (int a = 0; a < D; ++a)
+            for (int b = 0; b < D; ++b) rest[a] -= block[a*D + b]*v[b];
+    }
+    product<D>(&inverse_[std::size_t(i)*D*D], rest, z + std::size_t(i)*B);
+}
+
+template<int D>
+void VelocityBlock::relaxT(const double* r, const double* scale, double* z) const
+{
+    for (auto i = lightNodes_.begin(); i != lightNodes_.end(); ++i) relaxNode<D>(*i, r, scale, z);
+    for (auto i = lightNodes_.rbegin(); i != lightNodes_.rend(); ++i) relaxNode<D>(*i, r, scale, z);
+}
+
 template<int D>
 void VelocityBlock::solveT(const double* r, const double* scale, double* z) const
 {
@@ -67,12 +101,19 @@ void VelocityBlock::subtractT(const double* g, double* z) const
 
 void VelocityBlock::set(const FlowSystem& system, const std::vector<double>& ghost)
 {
+    system_ = &system;
     if (dim_ == 2) setT<2>(system, ghost); else setT<3>(system, ghost);
+    findLightNodes(system);
 }
 
 void VelocityBlock::solve(const double* r, const double* scale, double* z) const
 {
     if (dim_ == 2) solveT<2>(r, scale, z); else solveT<3>(r, scale, z);
+}
+
+void VelocityBlock::relaxLightNodes(const double* r, const double* scale, double* z) const
+{
+    if (dim_ == 2) relaxT<2>(r, scale, z); else relaxT<3>(r, scale, z);
 }
 
 void VelocityBlock::subtractDiagonal(const double* g, double* z) const

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Approximate inverse of the velocity block of a FlowSystem, which only preconditions: its diagonal blocks, in single precision. A symmetric
-/// Gauss-Seidel sweep takes a quarter of the iterations away, but makes forces noisy in 2D and costs what it saves in 3D (docs/numerics.md, section 5).
+/// Approximate inverse of the velocity block of a FlowSystem, which only preconditions: its diagonal blocks, in single precision, and a symmetric
+/// Gauss-Seidel sweep over the few nodes for which these are far off (docs/numerics.md, section 5).
 #pragma once
 
 #include "algebra/flowSystem.hpp"
@@ -13,12 +13,15 @@ class VelocityBlock
 public:
     VelocityBlock(const NodeGraph& graph, int nOwned, int dim) : graph_(graph), nOwned_(nOwned), dim_(dim), inverse_(std::size_t(nOwned)*dim*dim) {}
 
-    /// ghost: what the ghost faces add to the diagonal of each node.
+    /// Keeps the system by reference. ghost: what the ghost faces add to the diagonal of each node.
     void set(const FlowSystem& system, const std::vector<double>& ghost);
 
     /// z (dim+1 values a node, velocity first; the pressures become 0) = approximate inverse times the momentum rows of r, which were
     /// multiplied by scale (dim+1 values a node, one for the node's velocity).
     void solve(const double* r, const double* scale, double* z) const;
+
+    /// Symmetric Gauss-Seidel on the light nodes, from the z of solve() without its prescribed directions; r and scale as there.
+    void relaxLightNodes(const double* r, const double* scale, double* z) const;
 
     /// Takes the inverse diagonal blocks times g (dim values a node) from the velocities of z.
     void subtractDiagonal(const double* g, double* z) const;
@@ -26,11 +29,16 @@ public:
 private:
     template<int D> void setT(const FlowSystem& system, const std::vector<double>& ghost);
     template<int D> void solveT(const double* r, const double* scale, double* z) const;
+    void findLightNodes(const FlowSystem& system);
+    template<int D> void relaxNode(int i, const double* r, const double* scale, double* z) const;
+    template<int D> void relaxT(const double* r, const double* scale, double* z) const;
     template<int D> void subtractT(const double* g, double* z) const;
 
     const NodeGraph& graph_;
     const int nOwned_, dim_;
+    const FlowSystem* system_ = nullptr;
     std::vector<float> inverse_;    // nOwned*dim*dim
+    std::vector<int> lightNodes_;   // ascending: FlowSystem::isLight, but for nodes with prescribed directions
 };
 
 } // namespace flotsam

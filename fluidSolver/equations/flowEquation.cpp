@@ -12,6 +12,13 @@
 namespace flotsam
 {
 
+namespace
+{
+
+constexpr double lightDensity = 0.1;  // of a light node over the mean of an element around it, at most
+
+} // namespace
+
 FlowEquation::FlowEquation(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const FluidProperties& fluid,
     const NumericsControls& controls, const std::vector<BoundaryPatch>& patches)
 :   mesh_(mesh), graph_(graph), halo_(halo), fluid_(fluid), controls_(controls), patches_(patches)
@@ -97,6 +104,7 @@ void FlowEquation::assembleElements()
     ElementData<D> data;
     defect_.assign(mesh_.nOwned, 0.0);
     carriesMass_.assign(mesh_.nOwned, 0);
+    system_.isLight.assign(mesh_.nOwned, 0);
     std::vector<char> isStarted(mesh_.nOwned, 0);
     for (int e = 0; e < mesh_.nInnerElements; ++e)
     {
@@ -113,6 +121,7 @@ void FlowEquation::assembleElements()
             system_.dualVolume[i] += data.first[a];
             defect_[i] += massDefect(data, a);
             carriesMass_[i] |= data.isVarying;
+            system_.isLight[i] |= nodal_.rho[i] < lightDensity*data.rho;
             system_.pressureMass[i] += data.first[a]*pressureMass;
         }
         int slot[N*N];
