@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Slip patches at re-entrant edges, whose nodes have no normal: the wall holds the fluid weakly there.
+/// A stream leaves a sharp edge along the wall that it comes along (Kutta's condition): at the edge the wall that the fluid runs into holds it, the one that it
+/// comes away from does not. Were both to hold it alike, a jet would cling to the wall behind the edge.
 #include "core/patchFaces.hpp"
 #include "equations/elementLoader.hpp"
 #include "equations/faceMoments.hpp"
@@ -10,6 +12,19 @@
 
 namespace flotsam
 {
+
+namespace
+{
+
+/// Pa s/m, factor of the normal velocities' product. outflow: velocity into the wall, mean over the face [m/s]. At rest as every wall holds it.
+template<int D>
+double edgeHold(const ElementData<D>& e, double held, double h, double dt, double outflow)
+{
+    if (outflow == 0) return held;
+    return outflow > 0 ? e.rho*(h/dt + std::sqrt(squared<D>(e.advection))) : 0;
+}
+
+} // namespace
 
 /// The terms of a slip wall (wallTerms.hpp) on every face that has a node of a re-entrant edge. At the face's other nodes the normal velocity is prescribed
 /// and these terms vanish. No volume passes through the face: the continuity rows lose int q u.n.
@@ -55,8 +70,9 @@ void FlowEquation::addSlipFace(const MeshPatch& faces, std::size_t f)
         first[corner[k]] = area*moments.first[k];
         for (int l = 0; l < D; ++l) second[corner[k]*N + corner[l]] = area*moments.second[k*D + l];
     }
-    WallCoefficients c = nitscheCoefficients(data, controls_.nitscheGamma, mesh_.h[e], step_.time.dt, outflow);
+    WallCoefficients c = nitscheCoefficients(data, controls_.nitscheGamma, mesh_.h[e], step_.time.dt, 0);   // no volume passes: nothing flows in
     c.isSlip = true;
+    c.normal = edgeHold(data, c.normal, mesh_.h[e], step_.time.dt, outflow);
     double m[B*B];
     for (int a = 0; a < N; ++a)
     {

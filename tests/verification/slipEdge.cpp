@@ -133,7 +133,47 @@ double largestSpeedAtRest(int dim, int n)
     return halo.max(largest);
 }
 
+/// Of the velocity at the ridge what goes into the wall that a stream came along, over its speed. The stream starts with that wall's direction everywhere
+/// and passes ten elements.
+double enteringShare(int dim, int n)
+{
+    usePetsc();
+    const SimplexMesh mesh = ridgeMesh(dim, n);
+    const Halo halo(mesh, MPI_COMM_WORLD);
+    std::vector<BoundaryPatch> boundary = patches(mesh, true);
+    for (int p : {0, 1, 3}) boundary[p] = makePatch(mesh, p, BoundaryPatch::Velocity::Open);
+    NumericsControls controls;
+    Fluid fluid(mesh, halo, oneFluid(), controls, boundary);
+    FlowState start = restState(mesh);
+    for (int i = 0; i < mesh.nNodes; ++i)
+        for (int d = 0; d < 2; ++d) start.u[std::size_t(i)*dim + d] = std::sqrt(0.5);
+    fluid.start(std::move(start), true);
+    for (int step = 0; step < 20; ++step)
+    {
+        fluid.beginStep(0.5/n);
+        fluid.assemble();
+        REQUIRE(fluid.solve({}).hasConverged);
+        fluid.endStep();
+    }
+    double entering = 0;
+    for (int i = 0; i < mesh.nOwned; ++i)
+    {
+        const double *x = &mesh.x[std::size_t(i)*dim], *u = &fluid.state().u[std::size_t(i)*dim];
+        if (std::hypot(x[0], x[1]) == 0) entering = std::max(entering, (u[0] - u[1])*std::sqrt(0.5)/std::hypot(u[0], u[1]));
+    }
+    return halo.max(entering);
+}
+
 } // namespace
+
+TEST_CASE("a stream leaves the ridge along the wall that it came along")
+{
+    // held by both walls alike: 0.45 and 0.60
+    const double flat = enteringShare(2, 20), slab = enteringShare(3, 8);
+    MESSAGE("into the wall: ", flat, " of the speed in 2D, ", slab, " in 3D");
+    CHECK(flat < 0.22);
+    CHECK(slab < 0.36);
+}
 
 TEST_CASE("fluid flows around the ridge")
 {
