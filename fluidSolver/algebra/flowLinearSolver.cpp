@@ -7,6 +7,7 @@
 #include <petscksp.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace flotsam
 {
@@ -196,8 +197,9 @@ SolveReport FlowLinearSolver::solve(std::vector<double>& x, std::vector<double>&
     report.rebuiltPreconditioner = me.isNewMatrix && me.system.pressure().isNew();
     double first = 0, norm = 0;
     me.setResidual(x, q, first, norm);
-    if (!(norm < 1e300) || !(first < 1e300)) return report; // not a number: the caller repeats the step
-    report.initial = report.final = norm > 0 ? first/norm : 0;
+    const bool isNumber = norm < 1e300 && first < 1e300; // otherwise the caller repeats the step
+    report.initial = report.final = !isNumber ? std::numeric_limits<double>::infinity() : norm > 0 ? first/norm : 0;
+    if (!isNumber) return report;
     const double target = me.target(x, first, norm);
     if (first <= target || first == 0)
     {

@@ -73,6 +73,7 @@ void FlowEquation::assemble(const FlowStepData& step)
         assembleSlipEdges<2>();
         assembleGasEdge<2>();
         assembleWalls<2>();
+        keepSweptMass<2>();
         removeMassDefect<2>();
         assembleGhosts<2>();
     }
@@ -83,6 +84,7 @@ void FlowEquation::assemble(const FlowStepData& step)
         assembleSlipEdges<3>();
         assembleGasEdge<3>();
         assembleWalls<3>();
+        keepSweptMass<3>();
         removeMassDefect<3>();
         assembleGhosts<3>();
     }
@@ -105,6 +107,8 @@ void FlowEquation::assembleElements()
     defect_.assign(mesh_.nOwned, 0.0);
     carriesMass_.assign(mesh_.nOwned, 0);
     system_.isLight.assign(mesh_.nOwned, 0);
+    mass_.assign(mesh_.nOwned, 0.0);
+    swept_.assign(mesh_.nOwned, 0.0);
     std::vector<char> isStarted(mesh_.nOwned, 0);
     for (int e = 0; e < mesh_.nInnerElements; ++e)
     {
@@ -122,6 +126,7 @@ void FlowEquation::assembleElements()
             defect_[i] += massDefect(data, a);
             carriesMass_[i] |= data.isVarying;
             system_.isLight[i] |= nodal_.rho[i] < lightDensity*data.rho;
+            mass_[i] += (data.isVarying ? data.nodalInertia[a] : data.inertia)*data.first[a];
             system_.pressureMass[i] += data.first[a]*pressureMass;
         }
         int slot[N*N];
@@ -144,6 +149,22 @@ void FlowEquation::removeMassDefect()
         if (!carriesMass_[i] || isOpen_[i] || (step_.gas && step_.gas->isEdge()[i])) continue;
         if (defect_[i] > 0) coupleToNeighbours<D>(i, -defect_[i]);
         else addVelocity<D>(graph_.diagonal[i], -defect_[i]);
+    }
+}
+
+/// Where moving surfaces sweep more fluid away in the step than they leave, the sweep's part of the skew form, -S u with S the half of what is swept, exceeds
+/// the inertia that is left: a negative mass. The swept fluid's inertia then stays in the row: (V u)^(n+1) - (V u)^n - u/2 (V^(n+1) - V^n) instead of
+/// V du + u/2 dV differs by (V^n - V^(n+1)) du, and is a positive mass whatever is swept.
+template<int D>
+void FlowEquation::keepSweptMass()
+{
+    for (int i = 0; i < mesh_.nOwned; ++i)
+    {
+        const double removed = carriesMass_[i] ? std::max(0.0, -defect_[i]) : 0; // by removeMassDefect()
+        const double kept = 2*swept_[i] - mass_[i] - removed;
+        if (kept <= 0) continue;
+        addVelocity<D>(graph_.diagonal[i], kept);
+        for (int d = 0; d < D; ++d) system_.rhs[std::size_t(i)*(D + 1) + d] += kept*step_.state->u[std::size_t(i)*D + d];
     }
 }
 

@@ -59,6 +59,7 @@ public:
 private:
     void startRow(int i, std::vector<char>& isStarted);
     template<int D> void assembleElements();
+    template<int D> void keepSweptMass();
     template<int D> void removeMassDefect();
     template<int D> void addVelocity(int slot, double value);
     template<int D> void coupleToNeighbours(int i, double value);
@@ -91,6 +92,7 @@ private:
     FlowSystem system_;
     NodalData nodal_;
     std::vector<double> defect_;                // owned nodes: see massDefect()
+    std::vector<double> mass_, swept_;          // owned nodes: inertia of the fluid there; what moving surfaces take from it, a half [kg/s]
     std::vector<char> carriesMass_, isOpen_;    // nodes of varying elements; nodes on open patches
     std::vector<char> isPatchPressureFixed_;    // nNodes: by a patch
     double gasLevel_ = 0;                       // of the gas at rest's pressure [Pa]

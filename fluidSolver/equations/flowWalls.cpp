@@ -174,6 +174,7 @@ void FlowEquation::assembleWalls()
                         system_.matrix.add<D>(entry, m);
                         for (int k = 0; k < D; ++k) system_.matrix.velocity[entry*D*D + k*D + k] += c.convection*m2;
                         defect_[nodes[a]] += c.convection*m2; // a moving surface's part of the mass balance
+                        swept_[nodes[a]] -= c.convection*m2;
                         double* column = &coupling.column[std::size_t(place[a])*B*nDof];
                         for (int r = 0; r < B; ++r)
                             for (int k = 0; k < D; ++k)

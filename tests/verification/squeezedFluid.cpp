@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Solids that squeeze fluid out of less than an element: at any step the system has a solution, and what is no number is no step.
+#include "demCoupling/coupling/coupledStep.hpp"
+#include "support/flowCases.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+
+using namespace flotsam;
+
+namespace
+{
+
+/// A plate 0.33 m wide that sinks onto and through the floor of a tank of 20 x 20 elements.
+struct Press
+{
+    SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, 2, {20, 20, 1}, {0, 0, 0}, {1, 1, 1});
+    Halo halo{mesh, MPI_COMM_WORLD};
+    FluidProperties fluid;
+    NumericsControls controls;
+    std::vector<BoundaryPatch> patches;
+    PhaseTimers timers;
+
+    Press()
+    {
+        usePetsc();
+        fluid.isTwoPhase = false;
+        for (int p : {0, 1, 2}) patches.push_back(makePatch(mesh, p, BoundaryPatch::Velocity::Slip));
+        patches.push_back(makePatch(mesh, 3, BoundaryPatch::Velocity::Open));
+    }
+
+    std::unique_ptr<CoupledStep> plate(double height, double speed, Solid::Wall wall)
+    {
+        SceneStructure plate;
+        plate.solid.kind = Solid::Kind::Prescribed;
+        plate.solid.wall = wall;
+        plate.solid.shape = makeBox(Vec3::Zero(), Vec3(0.33, 0.17, 1));
+        plate.motion = [height, speed](double time, Pose& pose, Motion& motion)
+        {
+            pose.position = Vec3(0.51, height - speed*time, 0.5);
+            motion.velocity = Vec3(0, -speed, 0);
+        };
+        auto run = std::make_unique<CoupledStep>(mesh, halo, fluid, controls, patches, Scene({plate}, {}, Vec3::Zero()), nullptr, timers);
+        run->start(restState(mesh), true);
+        return run;
+    }
+};
+
+} // namespace
+
+TEST_CASE("a plate presses the water out under it, in steps of any part of an element")
+{
+    const double speed = 0.8;
+    for (const Solid::Wall wall : {Solid::Wall::NoSlip, Solid::Wall::Slip})
+        for (const double elements : {0.3, 1.0, 2.0})
+        {
+            double fastest = 0;
+            int steps = 0, unsolved = 0;
+            for (int place = 0; place < 10; ++place)
+            {
+                Press press;
+                const auto run = press.plate(0.285 + 0.005*place, speed, wall);
+                for (; run->fluid().state().time < 0.4; ++steps)
+                {
+                    const StepResult result = run->step(elements/20/speed);
+                    unsolved += !result.isAccepted || !result.hasConverged;
+                    if (!result.isAccepted) break;
+                    fastest = std::max(fastest, largestSpeed(press.mesh, press.halo, run->fluid().state().u));
+                }
+            }
+            std::printf("%.1f elements a step: fastest %.2f times the plate, %d of %d steps not solved\n", elements, fastest/speed, unsolved, steps);
+            CHECK(unsolved == 0);
+            CHECK(fastest < 0.165/0.005*speed); // half of the width swept, out through a tenth of an element
+        }
+}
+
+TEST_CASE("a step whose equations are not a number is not accepted")
+{
+    Press press;
+    press.fluid.gravity[1] = std::numeric_limits<double>::quiet_NaN();
+    const auto run = press.plate(0.3, 0.8, Solid::Wall::NoSlip);
+    const StepResult result = run->step(0.01);
+    CHECK(!result.isAccepted);
+    CHECK(result.failure == "the linear solver did not converge");
+    CHECK(run->fluid().state().step == 0);
+}
