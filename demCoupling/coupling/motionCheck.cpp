@@ -31,9 +31,14 @@ MotionCheck::MotionCheck(const std::vector<BodyDefinition>& bodies, const std::v
 {
     for (const BodyDefinition& body : bodies)
     {
-        double extent = 0;
-        for (const SurfaceSphere& s : body.spheres) extent = std::max(extent, s.centre.norm() + s.radius);
+        double extent = 0, radius = 0;
+        for (const SurfaceSphere& s : body.spheres)
+        {
+            extent = std::max(extent, s.centre.norm() + s.radius);
+            radius = std::max(radius, s.radius);
+        }
         extents_.push_back(extent);
+        largestRadius_.push_back(radius);
     }
     for (const WallDefinition& wall : walls)
     {
@@ -113,10 +118,17 @@ bool MotionCheck::entersBody(const Path& path, std::size_t other, const BodyStat
     const Box box{after.pose.position - Vec3::Constant(extents_[other]), after.pose.position + Vec3::Constant(extents_[other])};
     if (!meet(path.box, box)) return false;
     const Eigen::Matrix3d R0 = before.pose.orientation.toRotationMatrix(), R1 = after.pose.orientation.toRotationMatrix();
+    // inside one of its spheres or below them: what touches is rounder than the shape, at sharp edges and between spheres a centre may be in the shape
+    const std::vector<SurfaceSphere>& spheres = bodies_[other].spheres;
+    const double deep = -largestRadius_[other];
     auto isInside = [&](const Vec3& x, const Pose& pose, const Eigen::Matrix3d& R)
     {
         const Vec3 d = x - pose.position;
-        return d.squaredNorm() < extents_[other]*extents_[other] && bodies_[other].shape->distance(R.transpose()*d) < 0;
+        if (d.squaredNorm() >= extents_[other]*extents_[other]) return false;
+        const Vec3 inBody = R.transpose()*d;
+        const double distance = bodies_[other].shape->distance(inBody);
+        if (distance >= 0 || distance < deep) return distance < deep;
+        return std::any_of(spheres.begin(), spheres.end(), [&](const SurfaceSphere& s) { return (inBody - s.centre).squaredNorm() < s.radius*s.radius; });
     };
     for (std::size_t s = 0; s < path.before.size(); ++s)
         if (isInside(path.after[s], after.pose, R1) && !isInside(path.before[s], before.pose, R0)) return true;

@@ -35,7 +35,7 @@ private:
 
     std::vector<BodyDefinition> bodies_;
     std::vector<WallDefinition> walls_;
-    std::vector<double> extents_;   ///< of the bodies about their centres [m]
+    std::vector<double> extents_, largestRadius_; ///< of the bodies about their centres, of their spheres [m]
     std::vector<Box> wallBoxes_;
 };
 

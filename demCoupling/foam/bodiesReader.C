@@ -72,6 +72,7 @@ std::vector<BodyGroup> readGroups(const Foam::dictionary& dict, const SceneFrame
         if (!e.isDict()) failIn(dict.subDict("bodies"), text("'", std::string(e.keyword()), "' must be a body: name { shape {..} density ..; .. }."));
         groups.push_back(readBodyGroup(e.keyword(), e.dict(), frame));
     }
+    makeSpheres(groups);
     return groups;
 }
 

@@ -26,7 +26,8 @@ double readMass(const Foam::dictionary& dict, double volume)
 
 void readSpheres(const Foam::dictionary& dict, BodyGroup& group)
 {
-    double radius = 0.25*group.thinnest, spacing = 0;
+    double &radius = group.sphereRadius, &spacing = group.sphereSpacing;
+    radius = 0.25*group.thinnest;
     if (dict.found("spheres"))
     {
         const Foam::dictionary& spheres = dict.subDict("spheres");
@@ -35,7 +36,15 @@ void readSpheres(const Foam::dictionary& dict, BodyGroup& group)
             text("The body's smallest extent is ", group.thinnest, " m: the spheres must fit into it."));
         spacing = readNumberOr(spheres, "spacing", 0, {0, 4*radius, true}, "At most twice the diameter, or bodies pass between the spheres.");
     }
-    group.prototype.spheres = surfaceSpheres(*group.prototype.shape, radius, spacing > 0 ? spacing : 2*radius);
+}
+
+/// Distance of spheres of radius R at which one of radius r that rests between four of them has its centre as high above their tangent plane, over r, as one of
+/// their own size has at the distance 2 R: (sqrt(2) - 1) r. With 2 R one of less than 0.73 R gets its centre into the body, one of less than 0.41 R through its surface.
+double closedSpacing(double R, double r)
+{
+    constexpr double height = 0.41421356237309503, most = 0.25; // beyond: 16 times as many spheres
+    const double low = R + height*r, s = std::sqrt(2*((R + r)*(R + r) - low*low));
+    return r < R ? std::clamp(s, most*2*R, 2*R) : 2*R;
 }
 
 /// A pose of the user's frame -> of the body frame; 2D: moved to the mid-plane.
@@ -217,6 +226,17 @@ std::shared_ptr<const SampledShape> sampleShape(std::shared_ptr<const Shape> sha
     const Vec3 s = upper - lower;
     const double area = 2*(s[0]*s[1] + s[1]*s[2] + s[2]*s[0]);
     return std::make_shared<SampledShape>(std::move(shape), std::max(0.25*thinnest, std::sqrt(area/largestNumber)));
+}
+
+void makeSpheres(std::vector<BodyGroup>& groups)
+{
+    double smallest = 1e300;
+    for (const BodyGroup& g : groups) smallest = std::min(smallest, g.sphereRadius);
+    for (BodyGroup& g : groups)
+    {
+        const double spacing = g.sphereSpacing > 0 ? g.sphereSpacing : closedSpacing(g.sphereRadius, smallest);
+        g.prototype.spheres = surfaceSpheres(*g.prototype.shape, g.sphereRadius, spacing);
+    }
 }
 
 BodyGroup readBodyGroup(const std::string& name, const Foam::dictionary& dict, const SceneFrame& frame)

@@ -60,6 +60,40 @@ TEST_CASE("no file: an empty scene")
     CHECK(makeSolids(input).empty());
 }
 
+/// Whether a ball of that radius inside the shape touches the surface at x: no edge.
+bool isFlat(const Shape& shape, const Vec3& x, double radius)
+{
+    Vec3 normal;
+    for (int d = 0; d < 3; ++d) normal[d] = shape.distance(x + 1e-6*Vec3::Unit(d)) - shape.distance(x - 1e-6*Vec3::Unit(d));
+    return shape.distance(x - radius*normal.normalized()) < -radius*(1 - 1e-4);
+}
+
+TEST_CASE("the spheres of a thin body do not get between those of a thick one")
+{
+    Scene s;
+    const std::vector<std::string> thick{"type box; size (0.3 0.1 0.12);", "type cylinder; end1 (-0.15 0 0); end2 (0.15 0 0); radius 0.05;",
+        "type union; parts { a { type box; size (0.3 0.1 0.1); } b { type box; size (0.1 0.25 0.1); } }"};
+    for (const std::string& shape : thick)
+        for (const double thinner : {1.0, 1.5, 2.0, 4.0, 7.0})
+        {
+            CAPTURE(shape);
+            CAPTURE(thinner);
+            const BodiesInput input = s.read("bodies { thick { shape { " + shape + " } density 600; position (1 0.5 0.2); } thin { shape { type box; size (0.2 "
+                + std::to_string(0.1/thinner) + " 0.1); } density 600; position (0.3 0.5 0.2); } }");
+            const BodyDefinition& body = input.bodies[0];
+            const double radius = input.bodies[1].spheres[0].radius;
+            double farthest = 0; // from a point of the surface, where the centre of a sphere would enter, to the nearest sphere of the thick body; over both radii
+            for (const Vec3& x : pointsOnSurface(body.shape->surface(0.01), 0.003))
+            {
+                if (!isFlat(*body.shape, x, body.spheres[0].radius)) continue;
+                double nearest = 1e300;
+                for (const SurfaceSphere& b : body.spheres) nearest = std::min(nearest, (x - b.centre).norm()/(b.radius + radius));
+                farthest = std::max(farthest, nearest);
+            }
+            CHECK(farthest < 1);
+        }
+}
+
 TEST_CASE("one body: mass, inertia, spheres, pose")
 {
     Scene s;
