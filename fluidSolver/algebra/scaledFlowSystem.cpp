@@ -28,7 +28,7 @@ void ScaledFlowSystem::set(const FlowSystem& system)
     qRows_ = qWork_ = q_;
     fluidVolume_ = 0;
     for (int i = 0; i < mesh_.nOwned && !system.hasPressureLevel; ++i)
-        if (system.isActive[i]) fluidVolume_ += system.dualVolume[i];
+        if (isFreePressure(system, i)) fluidVolume_ += system.dualVolume[i];
     fluidVolume_ = halo_.sum(fluidVolume_);
     if (system.isNewMatrix) updatePressure();
 }
@@ -82,10 +82,10 @@ void ScaledFlowSystem::balanceContinuity(double* y) const
     if (system_->hasPressureLevel) return;
     double sum = 0;
     for (int i = 0; i < mesh_.nOwned; ++i)
-        if (system_->isActive[i]) sum += y[std::size_t(i)*B_ + B_ - 1];
+        if (isFreePressure(*system_, i)) sum += y[std::size_t(i)*B_ + B_ - 1];
     sum = halo_.sum(sum);
     for (int i = 0; i < mesh_.nOwned; ++i)
-        if (system_->isActive[i]) y[std::size_t(i)*B_ + B_ - 1] -= sum/fluidVolume_*system_->dualVolume[i];
+        if (isFreePressure(*system_, i)) y[std::size_t(i)*B_ + B_ - 1] -= sum/fluidVolume_*system_->dualVolume[i];
 }
 
 void ScaledFlowSystem::removeMean(std::vector<double>& p) const
@@ -93,10 +93,10 @@ void ScaledFlowSystem::removeMean(std::vector<double>& p) const
     if (system_->hasPressureLevel) return;
     double sum = 0;
     for (int i = 0; i < mesh_.nOwned; ++i)
-        if (system_->isActive[i]) sum += p[i]*system_->dualVolume[i];
+        if (isFreePressure(*system_, i)) sum += p[i]*system_->dualVolume[i];
     sum = halo_.sum(sum);
     for (int i = 0; i < mesh_.nOwned; ++i)
-        if (system_->isActive[i]) p[i] -= sum/fluidVolume_;
+        if (isFreePressure(*system_, i)) p[i] -= sum/fluidVolume_;
 }
 
 /// y = scaled rows of (local_, q_); ofPressure: see FlowOperator::fluidRows. The halo of local_ is updated here.

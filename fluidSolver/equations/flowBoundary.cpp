@@ -4,6 +4,8 @@
 
 #include "core/patchFaces.hpp"
 #include "equations/faceMoments.hpp"
+#include "equations/gasRegion.hpp"
+#include "equations/shutPockets.hpp"
 #include "equations/slipNormals.hpp"
 
 #include <algorithm>
@@ -62,10 +64,20 @@ void FlowEquation::buildConstraints()
     std::vector<double> flags(isPressureFixed.begin(), isPressureFixed.end());
     halo_.update(flags, 1);
     system_.isPressureFixed.assign(flags.begin(), flags.end());
-    bool any = false;
-    for (int i = 0; i < mesh_.nOwned; ++i) any = any || system_.isPressureFixed[i];
-    system_.hasPressureLevel = halo_.any(any);
     isPatchPressureFixed_ = system_.isPressureFixed;
+}
+
+/// By patches, at the edge of gas that is left out, in shut pockets: these have no part in the level of the rest.
+void FlowEquation::fixPressures()
+{
+    bool any = false;
+    for (int i = 0; i < mesh_.nNodes; ++i)
+    {
+        const bool isLevel = isPatchPressureFixed_[i] || (step_.gas && step_.gas->isEdge()[i]);
+        system_.isPressureFixed[i] = isLevel || (step_.pockets && step_.pockets->isNode(i));
+        any = any || (i < mesh_.nOwned && isLevel);
+    }
+    system_.hasPressureLevel = halo_.any(any);
 }
 
 void FlowEquation::applyConstraints(const std::vector<PatchValues>& values, std::vector<double>& x) const
@@ -105,6 +117,8 @@ void FlowEquation::applyConstraints(const std::vector<PatchValues>& values, std:
         }
     }
     if (step_.gas) applyGasEdge(x);
+    for (int i = 0; step_.pockets && i < mesh_.nNodes; ++i)
+        if (step_.pockets->isNode(i)) x[std::size_t(i)*B + dim] = step_.pockets->pressure(i);
     halo_.update(x, B);
 }
 

@@ -5,6 +5,7 @@
 #include "equations/elementLoader.hpp"
 #include "equations/gasRegion.hpp"
 #include "equations/materials.hpp"
+#include "equations/shutPockets.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -66,6 +67,7 @@ void FlowEquation::assemble(const FlowStepData& step)
     if (step_.cover) system_.isActive = step_.cover->isActiveNode;
     else system_.isActive.assign(mesh_.nNodes, 1);
     fixGasEdge();
+    fixPressures();
     if (mesh_.dim == 2)
     {
         assembleElements<2>();

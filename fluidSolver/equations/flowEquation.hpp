@@ -71,6 +71,7 @@ private:
     template<int D> void addOpenFace(const int* nodes, const double* v, const double* first, const double* second, const double* pressure);
     template<int D> void assembleGasEdge();
     void fixGasEdge();
+    void fixPressures();
     void applyGasEdge(std::vector<double>& x) const;
     double gasPressure(int i) const;
     template<int D> void fineScaleT(const std::vector<double>&, std::vector<double>&) const;

@@ -23,7 +23,7 @@ double FlowEquation::gasPressure(int i) const
     return p;
 }
 
-/// Pressures at the edge of the gas that is computed: prescribed, those of gas at rest under the boundaries with a given pressure. Of these the
+/// Level of the pressures at the edge of the gas that is computed: those of gas at rest under the boundaries with a given pressure. Of these the
 /// lowest counts: water may reach some.
 void FlowEquation::fixGasEdge()
 {
@@ -38,13 +38,6 @@ void FlowEquation::fixGasEdge()
     }
     level = halo_.min(level);
     gasLevel_ = level < noLevel ? level : 0;
-    bool any = false;
-    for (int i = 0; i < mesh_.nNodes; ++i)
-    {
-        system_.isPressureFixed[i] = isPatchPressureFixed_[i] || step_.gas->isEdge()[i];
-        any = any || (i < mesh_.nOwned && system_.isPressureFixed[i]);
-    }
-    system_.hasPressureLevel = halo_.any(any);
 }
 
 /// Terms of an open boundary on the faces between what is computed and what is left out.

@@ -13,6 +13,7 @@ namespace flotsam
 {
 
 class GasRegion;
+class ShutPockets;
 
 /// Everything a step's assembly reads.
 struct FlowStepData
@@ -21,6 +22,7 @@ struct FlowStepData
     const FlowState* state = nullptr;           ///< t^n, t^(n-1); alpha already at t^(n+1)
     const Cover* cover = nullptr;               ///< null: no solids
     const GasRegion* gas = nullptr;             ///< null: no gas is left out
+    const ShutPockets* pockets = nullptr;       ///< null: no solids
     const std::vector<Solid>* solids = nullptr; ///< pose and motion at t^(n+1); free: predicted
     const std::vector<PatchValues>* patchValues = nullptr; ///< at t^(n+1)
     const DualCellTransport* transport = nullptr;           ///< its last fluxes carry the momentum; null: a rho does

@@ -18,7 +18,7 @@ Fluid::Fluid(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& f
     const std::vector<BoundaryPatch>& patches)
 :   mesh_(mesh), halo_(halo), graph_(mesh), fluid_(fluid), controls_(controls), patches_(patches), values_(patches.size()),
     equation_(mesh, graph_, halo, fluid_, controls_, patches_), solver_(mesh, graph_, halo, controls_),
-    transport_(mesh, graph_, halo, controls_)
+    transport_(mesh, graph_, halo, controls_), pockets_(mesh, graph_, halo)
 {
     if (controls_.gasDepth > 0 && fluid_.isTwoPhase) gas_ = std::make_unique<GasRegion>(mesh, halo, controls_.gasDepth);
     if (!controls_.dualCellTransport) supg_ = std::make_unique<PhaseFieldSupg>(mesh, graph_, halo, controls_);
@@ -174,6 +174,19 @@ void Fluid::setGravity(const Cover* cover)
     gravityForce(mesh_, fluid_.gravity, rho, isBalanced ? &planes_ : nullptr, ofSurface, cover, force_);
 }
 
+/// cover: of what is computed.
+void Fluid::findPockets(const Cover& cover)
+{
+    std::vector<char> isFixed = equation_.isPatchPressureFixed();
+    for (int i = 0; gas_ && i < mesh_.nNodes; ++i) isFixed[i] |= gas_->isEdge()[i];
+    pockets_.find(cover, isFixed);
+    std::vector<double> rho(mesh_.nNodes);
+    for (int i = 0; i < mesh_.nNodes; ++i) rho[i] = density(fluid_, controls_, fluid_.isTwoPhase ? state_.alpha[i] : 1);
+    std::array<double, 3> gravity{};
+    for (int d = 0; d < mesh_.dim; ++d) gravity[d] = fluid_.gravity[mesh_.axes[d]];
+    pockets_.setPressures(state_.p, rho, gravity);
+}
+
 void Fluid::assemble()
 {
     const Cover* cover = cover_;
@@ -183,11 +196,13 @@ void Fluid::assemble()
         cover = &gas_->cover(cover_);
     }
     setGravity(cover);
+    if (cover_) findPockets(*cover);
     FlowStepData step;
     step.time = time_;
     step.state = &state_;
     step.cover = cover;
     step.gas = gas_.get();
+    step.pockets = cover_ ? &pockets_ : nullptr;
     step.solids = solids_;
     step.patchValues = &values_;
     step.elementForce = &force_;

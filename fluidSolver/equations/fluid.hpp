@@ -15,6 +15,7 @@
 #include "equations/gasRegion.hpp"
 #include "equations/interfacePlanes.hpp"
 #include "equations/phaseFieldSupg.hpp"
+#include "equations/shutPockets.hpp"
 
 #include <memory>
 #include <string>
@@ -91,6 +92,7 @@ private:
     void extendPhase();
     void findSurface();
     void setGravity(const Cover* cover);
+    void findPockets(const Cover& cover);
     void setFirstGuess();
     TransportReport advancePhase(double dt);
     double levelTolerance() const;
@@ -118,6 +120,7 @@ private:
     Cover start_, during_;              // while solids move: geometry of t, mean over the step
     bool isMoved_ = false;              // start_ holds
     std::unique_ptr<GasRegion> gas_;    // when gas far from the water is left out
+    ShutPockets pockets_;
     const std::vector<Solid>* solids_ = nullptr;
     TimeScheme time_;
     std::vector<double> force_;         // nElements*dim

@@ -7,10 +7,16 @@ namespace flotsam
 void extendIntoSolids(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const Cover& cover,
     std::vector<double>& alpha, int nRings)
 {
+    extendIntoSolids(mesh, graph, halo, cover.isActiveNode, alpha, nRings);
+}
+
+void extendIntoSolids(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const std::vector<char>& isKnown,
+    std::vector<double>& values, int nRings)
+{
     std::vector<int> inside;
     for (int i = 0; i < mesh.nOwned; ++i)
     {
-        if (!cover.isActiveNode[i])
+        if (!isKnown[i])
         {
             inside.push_back(i);
         }
@@ -19,12 +25,12 @@ void extendIntoSolids(const SimplexMesh& mesh, const NodeGraph& graph, const Hal
     {
         return;
     }
-    // {alpha, 1 if known}: one exchange a ring keeps both right on the copies
+    // {value, 1 if known}: one exchange a ring keeps both right on the copies
     std::vector<double> state(2*std::size_t(mesh.nNodes));
     for (int i = 0; i < mesh.nNodes; ++i)
     {
-        state[2*std::size_t(i)] = alpha[i];
-        state[2*std::size_t(i) + 1] = cover.isActiveNode[i] ? 1 : 0;
+        state[2*std::size_t(i)] = values[i];
+        state[2*std::size_t(i) + 1] = isKnown[i] ? 1 : 0;
     }
     halo.update(state, 2);  // a second-ring copy may not see the fluid element that makes it active
 
@@ -57,7 +63,7 @@ void extendIntoSolids(const SimplexMesh& mesh, const NodeGraph& graph, const Hal
     {
         if (state[2*std::size_t(i) + 1] != 0)
         {
-            alpha[i] = state[2*std::size_t(i)];
+            values[i] = state[2*std::size_t(i)];
         }
     }
 }

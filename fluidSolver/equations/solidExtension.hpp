@@ -8,10 +8,12 @@
 namespace flotsam
 {
 
-/// Gives the nodes inside solids within `nRings` rings of active nodes the mean of their neighbours nearer to the fluid, ring
+/// Gives the other nodes within `nRings` rings of known ones (solids: of active nodes) the mean of their neighbours nearer to the fluid, ring
 /// by ring; deeper nodes keep what they have. alpha: nNodes, halo up to date before and after. Collective; the result does
 /// not depend on the number of ranks.
 void extendIntoSolids(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const Cover& cover,
     std::vector<double>& alpha, int nRings = 3);
+void extendIntoSolids(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const std::vector<char>& isKnown,
+    std::vector<double>& values, int nRings = 3);
 
 } // namespace flotsam

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Fluid that bodies and walls shut in within gaps of less than an element.
+///
+/// A pocket of cut elements, joined by no node with fluid elsewhere, has a pressure level of its own, and nothing fixes it but the bodies around: their
+/// motion must keep the pocket's volume to the last bit, at any time step. No pocket of that size has a meaning (gaps below the mesh carry what the mesh can carry),
+/// beside structures alone there is no solution, beside bodies none that iterations find. So pockets are open to the pressure of the fluid around.
+#pragma once
+
+#include "algebra/halo.hpp"
+#include "geometry/cover.hpp"
+
+#include <array>
+
+namespace flotsam
+{
+
+class ShutPockets
+{
+public:
+    ShutPockets(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo) : mesh_(mesh), graph_(graph), halo_(halo) {}
+
+    /// Finds them. isPressureFixed (nNodes): by a boundary. Collective.
+    void find(const Cover& cover, const std::vector<char>& isPressureFixed);
+
+    /// Their pressures: p (nNodes) of the fluid nearest around, through the solids, with the weight of the density rho (nNodes) from there. gravity: in
+    /// the mesh's axes. After find(). Collective.
+    void setPressures(const std::vector<double>& p, const std::vector<double>& rho, const std::array<double, 3>& gravity);
+
+    bool isNode(int i) const { return !isIn_.empty() && isIn_[i]; }     ///< of a pocket
+    double pressure(int i) const { return pressure_[i]; }               ///< [Pa]
+
+private:
+    bool spread(const Cover& cover);
+
+    const SimplexMesh& mesh_;
+    const NodeGraph& graph_;
+    const Halo& halo_;
+    std::vector<char> isIn_;            // nNodes; empty: no pockets on any rank
+    std::vector<char> isOutside_;       // nNodes: fluid that is none
+    std::vector<int> isReached_;
+    std::vector<double> pressure_;
+};
+
+} // namespace flotsam
