@@ -59,6 +59,7 @@ struct FlowSystem
     std::vector<char> isLight;                  ///< nOwned: beside elements far denser than the node itself (gas beside water)
     std::vector<double> dualVolume;             ///< nOwned: fluid part [m^dim]
     bool hasPressureLevel = false;              ///< some node has its pressure prescribed (all ranks)
+    std::vector<double> levelWeight;            ///< nOwned, sum 1 over all ranks: without a level the mean whose change is zero; with one: empty
     bool isNewMatrix = true;                    ///< assembled since the last solve; else only right-hand sides of solids have changed
 };
 

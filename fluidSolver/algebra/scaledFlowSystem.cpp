@@ -92,11 +92,10 @@ void ScaledFlowSystem::removeMean(std::vector<double>& p) const
 {
     if (system_->hasPressureLevel) return;
     double sum = 0;
-    for (int i = 0; i < mesh_.nOwned; ++i)
-        if (isFreePressure(*system_, i)) sum += p[i]*system_->dualVolume[i];
+    for (int i = 0; i < mesh_.nOwned; ++i) sum += p[i]*system_->levelWeight[i];
     sum = halo_.sum(sum);
     for (int i = 0; i < mesh_.nOwned; ++i)
-        if (isFreePressure(*system_, i)) p[i] -= sum/fluidVolume_;
+        if (isFreePressure(*system_, i)) p[i] -= sum;
 }
 
 /// y = scaled rows of (local_, q_); ofPressure: see FlowOperator::fluidRows. The halo of local_ is updated here.

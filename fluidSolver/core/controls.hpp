@@ -16,6 +16,7 @@ struct FluidProperties
     double muLiquid = 1e-3, muGas = 1.8e-5; ///< dynamic viscosity [Pa s]
     double sigma = 0;                       ///< surface tension [N/m]; must be 0 for now
     std::array<double, 3> gravity{0, 0, 0}; ///< space frame [m/s^2]
+    double pRefValue = 0;                   ///< pressure where no boundary prescribes one: mean in the gas, in the liquid without gas [Pa]
 };
 
 /// system/fvSolution, sub-dictionary flotsam

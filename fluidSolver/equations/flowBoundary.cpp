@@ -80,6 +80,38 @@ void FlowEquation::fixPressures()
     system_.hasPressureLevel = halo_.any(any);
 }
 
+/// The gas of a tank has the level, whatever strikes the water; by volume where there is next to no gas. Of a body that lies flush with a wall only a part is in the
+/// mesh: the level acts on it.
+void FlowEquation::weighPressureLevel()
+{
+    constexpr double leastGas = 1e-3; // of the volume
+    std::vector<double>& weight = system_.levelWeight;
+    weight.clear();
+    if (system_.hasPressureLevel) return;
+    double sums[2] = {}; // all, gas
+    const auto volume = [&](int i) { return system_.isActive[i] && !system_.isPressureFixed[i] ? system_.dualVolume[i] : 0; };
+    const auto gasShare = [&](int i) { return fluid_.isTwoPhase ? 1 - std::clamp(step_.state->alpha[i], 0.0, 1.0) : 0; };
+    for (int i = 0; i < mesh_.nOwned; ++i)
+    {
+        sums[0] += volume(i);
+        sums[1] += volume(i)*gasShare(i);
+    }
+    halo_.sum(sums, 2);
+    const bool byGas = sums[1] > leastGas*sums[0];
+    weight.resize(mesh_.nOwned);
+    for (int i = 0; i < mesh_.nOwned; ++i) weight[i] = volume(i)*(byGas ? gasShare(i)/sums[1] : 1/sums[0]);
+}
+
+void FlowEquation::setPressureLevel(std::vector<double>& x) const
+{
+    if (system_.hasPressureLevel) return;
+    const int dim = mesh_.dim, B = dim + 1;
+    double level = 0;
+    for (int i = 0; i < mesh_.nOwned; ++i) level += system_.levelWeight[i]*x[std::size_t(i)*B + dim];
+    level = halo_.sum(level);
+    for (int i = 0; i < mesh_.nNodes; ++i) x[std::size_t(i)*B + dim] += fluid_.pRefValue - level;
+}
+
 void FlowEquation::applyConstraints(const std::vector<PatchValues>& values, std::vector<double>& x) const
 {
     const int dim = mesh_.dim, B = dim + 1;

@@ -39,6 +39,9 @@ public:
     /// constant load ends at the solved velocity. bodies: one per solid of kind Free, in the order of the solids.
     void setFreeBodies(const std::vector<FreeBody>& bodies, double dt);
 
+    /// Without a prescribed pressure: shifts those of x to the level of FluidProperties::pRefValue. Collective.
+    void setPressureLevel(std::vector<double>& x) const;
+
     /// Writes prescribed velocities and pressures into x (nNodes*(dim+1)).
     void applyConstraints(const std::vector<PatchValues>& values, std::vector<double>& x) const;
 
@@ -72,6 +75,7 @@ private:
     template<int D> void assembleGasEdge();
     void fixGasEdge();
     void fixPressures();
+    void weighPressureLevel();
     void applyGasEdge(std::vector<double>& x) const;
     double gasPressure(int i) const;
     template<int D> void fineScaleT(const std::vector<double>&, std::vector<double>&) const;

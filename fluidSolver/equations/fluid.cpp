@@ -227,6 +227,7 @@ void Fluid::setFirstGuess()
         }
         x_[std::size_t(i)*B + dim] = state_.p[i] + time_.extrapolation*(state_.p[i] - state_.pOld[i]);
     }
+    equation_.setPressureLevel(x_); // else the extrapolation lets it drift
     equation_.applyConstraints(values_, x_);
     q_.assign(solids_ ? solids_->size()*nDof : 0, 0.0);
     for (std::size_t s = 0; solids_ && s < solids_->size(); ++s) solidVelocity(mesh_, (*solids_)[s], &q_[s*nDof]);

@@ -258,7 +258,7 @@ CaseControls readCaseControls(const Foam::Time& runTime)
     checkOtherModels(runTime);
     const Foam::IOdictionary fvSolution(inputFile(runTime, "fvSolution", runTime.system()));
     controls.numerics = readNumerics(fvSolution);
-    controls.pRefValue = readReferencePressure(fvSolution);
+    controls.fluid.pRefValue = readReferencePressure(fvSolution);
     controls.time = readTimeControls(runTime.controlDict());
     return controls;
 }

@@ -142,7 +142,7 @@ TEST_CASE("a whole case")
     CHECK(c.numerics.timeOrder == 1);
     CHECK_FALSE(c.numerics.dualCellTransport);
     CHECK(c.time.maxCo == 0.3);
-    CHECK(c.pRefValue == 5);
+    CHECK(c.fluid.pRefValue == 5);
     CHECK(has(messageOf([] { checkUnused("dynamicMeshDict", parse("dynamicFvMesh dynamicMotionSolverFvMesh;")); }), "allowed: staticFvMesh"));
     CHECK(has(messageOf([] { checkUnused("fvOptions", parse("porous { type explicitPorositySource; }")); }), "fvOptions is not available"));
     CHECK(messageOf([] { checkUnused("fvOptions", parse("porous { active no; }")); }).empty());
