@@ -8,17 +8,17 @@
 namespace flotsam
 {
 
-/// From reached nodes over the cut elements of this rank, as far as it goes. True when any node was new.
-bool ShutPockets::spread(const Cover& cover)
+/// From reached nodes over the elements `open_` of this rank, as far as it goes. True when any node was new.
+bool ShutPockets::spread()
 {
     const int n = mesh_.dim + 1;
     bool isNew = false;
     for (bool isMoving = true; isMoving; )
     {
         isMoving = false;
-        for (const CutElement& cut : cover.cuts)
+        for (int e : open_)
         {
-            const int* nodes = &mesh_.elements[std::size_t(cut.element)*n];
+            const int* nodes = &mesh_.elements[std::size_t(e)*n];
             const int count = int(std::count_if(nodes, nodes + n, [&](int i) { return isReached_[i] != 0; }));
             if (count == 0 || count == n) continue;
             for (int a = 0; a < n; ++a) isReached_[nodes[a]] = 1;
@@ -31,14 +31,20 @@ bool ShutPockets::spread(const Cover& cover)
 void ShutPockets::find(const Cover& cover, const std::vector<char>& isPressureFixed)
 {
     const int n = mesh_.dim + 1;
-    isReached_.assign(mesh_.nNodes, 0);
-    for (int i = 0; i < mesh_.nNodes; ++i) isReached_[i] = cover.isActiveNode[i] && isPressureFixed[i];
+    isReached_.assign(mesh_.nNodes, 1);
     for (int e = 0; e < mesh_.nElements; ++e)
-        if (cover.state[e] == ElementState::Fluid)
-            for (int a = 0; a < n; ++a) isReached_[mesh_.elements[std::size_t(e)*n + a]] = 1;
+        for (int a = 0; a < n && cover.state[e] != ElementState::Fluid; ++a) isReached_[mesh_.elements[std::size_t(e)*n + a]] = 0;
+    for (int i = 0; i < mesh_.nNodes; ++i)
+        if (cover.isActiveNode[i] && isPressureFixed[i]) isReached_[i] = 1;
     halo_.update(isReached_, 1);
+    open_.clear();
+    for (int e = 0; e < mesh_.nElements; ++e)
+    {
+        const int* nodes = &mesh_.elements[std::size_t(e)*n];
+        if (cover.state[e] != ElementState::Solid && std::any_of(nodes, nodes + n, [&](int i) { return !isReached_[i]; })) open_.push_back(e);
+    }
     const bool hasOutside = halo_.any(std::find(isReached_.begin(), isReached_.end(), 1) != isReached_.end());
-    while (halo_.any(spread(cover))) halo_.update(isReached_, 1);
+    while (halo_.any(spread())) halo_.update(isReached_, 1);
     isIn_.assign(mesh_.nNodes, 0);
     isOutside_.assign(mesh_.nNodes, 0);
     for (int i = 0; i < mesh_.nNodes; ++i) (isReached_[i] ? isOutside_ : isIn_)[i] = cover.isActiveNode[i];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Fluid that bodies and walls shut in within gaps of less than an element.
+/// Fluid that bodies and walls shut in within gaps of an element or less.
 ///
-/// A pocket of cut elements, joined by no node with fluid elsewhere, has a pressure level of its own, and nothing fixes it but the bodies around: their
+/// A pocket without a node that has whole elements around it, and with no node in common with fluid elsewhere, has a pressure level of its own, and nothing fixes it but the bodies around: their
 /// motion must keep the pocket's volume to the last bit, at any time step. No pocket of that size has a meaning (gaps below the mesh carry what the mesh can carry),
 /// beside structures alone there is no solution, beside bodies none that iterations find. So pockets are open to the pressure of the fluid around.
 #pragma once
@@ -30,7 +30,7 @@ public:
     double pressure(int i) const { return pressure_[i]; }               ///< [Pa]
 
 private:
-    bool spread(const Cover& cover);
+    bool spread();
 
     const SimplexMesh& mesh_;
     const NodeGraph& graph_;
@@ -38,6 +38,7 @@ private:
     std::vector<char> isIn_;            // nNodes; empty: no pockets on any rank
     std::vector<char> isOutside_;       // nNodes: fluid that is none
     std::vector<int> isReached_;
+    std::vector<int> open_;             // elements with fluid of which not all nodes are reached from the start
     std::vector<double> pressure_;
 };
 
