@@ -201,6 +201,7 @@ std::map<std::string, std::vector<double>> CoupledStep::save() const
 {
     std::map<std::string, std::vector<double>> arrays;
     arrays["liquid"] = {fluid_.keptLiquid()};
+    arrays["massFluxes"] = fluid_.massFluxes().records();
     if (scene_.isEmpty()) return arrays;
     arrays["solids"] = scene_.save();
     arrays["ghostFluxes"] = fluid_.ghostFluxes();
@@ -223,6 +224,7 @@ void CoupledStep::restore(FlowState state, const std::map<std::string, std::vect
         return at->second;
     };
     fluid_.setKeptLiquid(array("liquid").at(0));
+    fluid_.massFluxes().setRecords(array("massFluxes"));
     if (scene_.isEmpty()) return;
     scene_.restore(array("solids"));
     fluid_.setGhostFluxes(array("ghostFluxes"));

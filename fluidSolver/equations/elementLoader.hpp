@@ -4,6 +4,7 @@
 
 #include "equations/elementTerms.hpp"
 #include "equations/flowStep.hpp"
+#include "equations/massFluxes.hpp"
 #include "equations/materials.hpp"
 #include "equations/stabilisation.hpp"
 
@@ -21,9 +22,12 @@ struct NodalData
     std::vector<double> advection;              ///< a at t^(n+1) [m/s]
 };
 
-/// Ratio of densities within the three time levels of an element from which its inertia is taken first order in time: a second
-/// order formula of a density that falls a thousandfold within two steps is a negative mass.
+/// Ratio of densities within the three time levels of an element from which its residual, and its inertia where its mean density counts, are taken
+/// first order in time: a second order formula of a density that falls a thousandfold within two steps is a negative mass.
 constexpr double steepDensity = 1.5;
+
+/// Share of the first order inertia below which a node's own of second order is not used: nodes that have just lost their liquid.
+constexpr double leastInertia = 0.5;
 
 /// By element means, and by the nodes' values where these count.
 template<int D>
@@ -47,14 +51,25 @@ inline bool isAtRest(const FlowStepData& step, const CutElement& cut)
     return true;
 }
 
-/// Convection by the transport's mass fluxes, moved from the middle of the step to its end, and from the resolved to the whole velocity, with
-/// the mean density. Half the flux is the skew-symmetric form, in which a node's own velocity does not appear: a gas node through which in one
-/// step more mass flows than its dual cell holds would be moved by a multiple of its neighbours' differences, in splashes to 100 m/s and more.
+/// What the loaders hand from one to the next.
+struct ElementSource
+{
+    const CutElement* cut = nullptr;                        ///< null: not cut
+    DualCellTransport::ElementFluxes fluxes{};              ///< null where the density does not vary
+    double rhoOld = 0, rhoOlder = 0;                        ///< means over the fluid part at t^n, t^(n-1) [kg/m^3]
+    TimeScheme time;                                        ///< first order where the density is steep
+    bool isSteep = false;                                   ///< see steepDensity
+    ElementRates rates;
+};
+
+/// Convection by the transport's mass fluxes, extrapolated from the middles of the last steps to the end of this one as BDF2 of the nodes' masses asks
+/// (massFluxes.hpp); beside nodes of first order moved there with the mean density.
+/// Half the flux is the skew-symmetric form, in which a node's own velocity does not appear: a gas node through which in one step more mass flows than its dual cell holds would be moved by a multiple of its neighbours' differences, in splashes to 100 m/s and more.
 /// What exceeds the smaller of the two nodes' masses, shared among the D pairs that a node has in an element, is therefore taken upwind: the differences
 /// of velocities around a node then do not move it by more than themselves. (All of the mass for each pair: in 3D spikes remain, and a dam break lost half its water.)
 template<int D>
-inline void loadConvection(const DualCellTransport::ElementFluxes& fluxes, const FluidProperties& fluid, const NumericsControls& controls,
-    ElementData<D>& data)
+inline void loadConvection(const ElementSource& source, const double* lastFluxes, double extrapolation, const FluidProperties& fluid,
+    const NumericsControls& controls, ElementData<D>& data)
 {
     using Pairs = CornerPairs<D>;
     constexpr int N = D + 1;
@@ -62,12 +77,11 @@ inline void loadConvection(const DualCellTransport::ElementFluxes& fluxes, const
     for (int p = 0; p < Pairs::count; ++p)
     {
         const int a = Pairs::first[p], b = Pairs::second[p];
+        const double inStep = massFlux(source.fluxes.liquid[p], source.fluxes.total[p], fluid, controls);
+        const double before = lastFluxes ? lastFluxes[p] : source.rhoOld*source.fluxes.total[p];
+        const double ahead = data.isFirstOrder[a] || data.isFirstOrder[b] ? 0 : extrapolation/(1 + extrapolation);
         const double atEnd = data.volume/N*(data.ag[b] - data.ag[a]);
-        // fluxes may be as small as 1e-310: the quotient only where it is below 1
-        const double liquid = std::abs(fluxes.liquid[p]), total = std::abs(fluxes.total[p]);
-        const bool isForward = (fluxes.liquid[p] > 0) == (fluxes.total[p] > 0);
-        const double alpha = !isForward || liquid == 0 ? 0 : liquid < total ? liquid/total : 1;
-        const double flux = density(fluid, controls, alpha)*fluxes.total[p] + data.rho*(atEnd - fluxes.total[p]);
+        const double flux = inStep + (ahead > 0 ? ahead*(inStep - before) : data.rho*(atEnd - source.fluxes.total[p]));
         const double mass = std::min(data.nodalInertia[a]*data.first[a], data.nodalInertia[b]*data.first[b])/D;
         const double upwind = std::max(0.0, 0.5*std::abs(flux) - mass);
         data.convection[a*N + b] = 0.5*flux - upwind;
@@ -76,16 +90,6 @@ inline void loadConvection(const DualCellTransport::ElementFluxes& fluxes, const
         data.convection[b*(N + 1)] += upwind;
     }
 }
-
-/// What the loaders hand from one to the next.
-struct ElementSource
-{
-    const CutElement* cut = nullptr;                        ///< null: not cut
-    DualCellTransport::ElementFluxes fluxes{};              ///< null where the density does not vary
-    double rhoOld = 0, rhoOlder = 0;                        ///< means over the fluid part at t^n, t^(n-1) [kg/m^3]
-    TimeScheme time;                                        ///< first order where the density is steep
-    ElementRates rates;
-};
 
 template<int D>
 inline double squared(const double* v)
@@ -142,7 +146,8 @@ inline bool loadResidualData(int e, const SimplexMesh& mesh, const FlowStepData&
     }
     for (int d = 0; d < D; ++d) data.advection[d] = advection[d];
     source.time = step.time;
-    if (isSteep<D>(data, nodes, nodal, rhoOld, rhoOlder)) source.time = TimeScheme::bdf(1, dt, 0);
+    source.isSteep = isSteep<D>(data, nodes, nodal, rhoOld, rhoOlder);
+    if (source.isSteep) source.time = TimeScheme::bdf(1, dt, 0);
     const double c1 = source.time.c1, c2 = source.time.c2;
     data.c0 = source.time.c0;
     for (int a = 0; a < N; ++a)
@@ -167,9 +172,26 @@ inline void loadMomentumHistory(int a, int node, double old, double older, const
     for (int d = 0; d < D && more != 0; ++d) data.momentumHistory[a*D + d] += more*step.state->uOld[std::size_t(node)*D + d];
 }
 
+/// Inertia, momentum history and mass rate of corner a by its own densities.
+template<int D>
+inline void loadNodalInertia(int a, int node, bool isFirstOrder, const FlowStepData& step, const NodalData& nodal, ElementData<D>& data)
+{
+    const double now = nodal.rho[node], old = nodal.rhoOld[node], older = nodal.rhoOlder[node];
+    const auto inertia = [&](const TimeScheme& t) { return 0.5*(t.c0*now - t.c1*old - t.c2*older); };
+    const TimeScheme first = TimeScheme::bdf(1, step.time.dt, 0);
+    data.isFirstOrder[a] = isFirstOrder || inertia(step.time) < leastInertia*inertia(first);
+    const TimeScheme& t = data.isFirstOrder[a] ? first : step.time;
+    data.nodalInertia[a] = inertia(t);
+    data.densityRate[a] = t.c0*now + t.c1*old + t.c2*older;
+    data.forceShare[a] = now/data.rho - 1;
+    const double *u = &step.state->u[std::size_t(node)*D], *uOld = &step.state->uOld[std::size_t(node)*D];
+    for (int d = 0; d < D; ++d) data.momentumHistory[a*D + d] = -(t.c1*old*u[d] + t.c2*older*uOld[d]);
+}
+
 /// Inertia and momentum history by BDF of the momentum, with the nodes' own densities where the density varies.
 template<int D>
-inline void loadInertia(const int* nodes, const FlowStepData& step, const NodalData& nodal, const ElementSource& source, ElementData<D>& data)
+inline void loadInertia(const int* nodes, const FlowStepData& step, const NumericsControls& controls, const NodalData& nodal, const ElementSource& source,
+    ElementData<D>& data)
 {
     const TimeScheme& t = source.time;
     data.inertia = 0.5*(t.c0*data.rho - t.c1*source.rhoOld - t.c2*source.rhoOlder);
@@ -184,16 +206,12 @@ inline void loadInertia(const int* nodes, const FlowStepData& step, const NodalD
         }
         return;
     }
+    const bool isFirstOrder = source.isSteep && controls.surfaceTimeOrder == 1;
     double least = data.inertia;
     for (int a = 0; a <= D; ++a)
     {
-        const int i = nodes[a];
-        const double now = nodal.rho[i], old = nodal.rhoOld[i], older = nodal.rhoOlder[i];
-        data.nodalInertia[a] = 0.5*(t.c0*now - t.c1*old - t.c2*older);
-        data.densityRate[a] = t.c0*now + t.c1*old + t.c2*older;
-        data.forceShare[a] = now/data.rho - 1;
+        loadNodalInertia(a, nodes[a], isFirstOrder, step, nodal, data);
         least = std::min(least, data.nodalInertia[a]);
-        loadMomentumHistory(a, i, old, older, step, t, data);
     }
     data.streamlineDensity *= least/data.inertia;
 }
@@ -206,8 +224,8 @@ inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& 
     ElementSource source;
     if (!loadResidualData<D>(e, mesh, step, controls, nodal, data, source)) return false;
     data.second = source.cut ? source.cut->second : nullptr;
-    loadInertia<D>(&mesh.elements[std::size_t(e)*(D + 1)], step, nodal, source, data);
-    if (data.isVarying) loadConvection<D>(source.fluxes, fluid, controls, data);
+    loadInertia<D>(&mesh.elements[std::size_t(e)*(D + 1)], step, controls, nodal, source, data);
+    if (data.isVarying) loadConvection<D>(source, step.massFluxes->of(e), step.time.extrapolation, fluid, controls, data);
     data.tauCont = controls.tauContFactor
         *tauContinuity(controls.tauContWithTimeStep, data.rho, squared<D>(data.advection), mesh.h[e], data.mu/data.rho, source.rates);
     return true;

@@ -34,6 +34,7 @@ struct ElementData
     /// c0 rho + 1/2 drho/dt does not (BDF1: Guermond & Quartapelle 2000, doi 10.1006/jcph.2000.6609).
     double inertia;                     ///< [kg/(m^3 s)]
     bool isVarying;                     ///< density varies: the mass matrix is lumped and the transport's mass fluxes convect
+    bool isFirstOrder[N];               ///< nodes whose inertia is first order in time (varying)
     double nodalInertia[N];             ///< like inertia, of the nodes (varying)
     double convection[N*N];             ///< of row a by node b: half the mass flux from a to b, see loadConvection() [kg/s] (varying)
     double streamlineDensity;           ///< of the SUPG terms [kg/m^3]

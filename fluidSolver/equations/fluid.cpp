@@ -18,7 +18,7 @@ Fluid::Fluid(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& f
     const std::vector<BoundaryPatch>& patches)
 :   mesh_(mesh), halo_(halo), graph_(mesh), fluid_(fluid), controls_(controls), patches_(patches), values_(patches.size()),
     equation_(mesh, graph_, halo, fluid_, controls_, patches_), solver_(mesh, graph_, halo, controls_),
-    transport_(mesh, graph_, halo, controls_), pockets_(mesh, graph_, halo)
+    transport_(mesh, graph_, halo, controls_), massFluxes_(mesh, fluid_, controls_), pockets_(mesh, graph_, halo)
 {
     if (controls_.gasDepth > 0 && fluid_.isTwoPhase) gas_ = std::make_unique<GasRegion>(mesh, halo, controls_.gasDepth);
     if (!controls_.dualCellTransport) supg_ = std::make_unique<PhaseFieldSupg>(mesh, graph_, halo, controls_);
@@ -208,6 +208,7 @@ void Fluid::assemble()
     step.elementForce = &force_;
     step.fineScale = &state_.fineScale;
     step.transport = fluid_.isTwoPhase && !supg_ ? &transport_ : nullptr;
+    step.massFluxes = &massFluxes_;
     equation_.assemble(step);
     equation_.system().isNewMatrix = true;
     setFirstGuess();
@@ -314,6 +315,7 @@ void Fluid::endStep()
     }
     moveInactiveNodes();
     equation_.ghostFluxes(x_, ghostFlux_);
+    if (fluid_.isTwoPhase && !supg_) massFluxes_.keep(transport_, state_.alphaOld, state_.alpha);
     state_.dtOld = state_.dt;
     state_.dt = time_.dt;
     state_.time += time_.dt;

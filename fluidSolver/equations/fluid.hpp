@@ -14,6 +14,7 @@
 #include "equations/flowMeasures.hpp"
 #include "equations/gasRegion.hpp"
 #include "equations/interfacePlanes.hpp"
+#include "equations/massFluxes.hpp"
 #include "equations/phaseFieldSupg.hpp"
 #include "equations/shutPockets.hpp"
 
@@ -84,6 +85,9 @@ public:
     /// Ghost-penalty fluxes of the last accepted solve as {a, b, flux} triples (part of the state of a run with solids).
     std::vector<double> ghostFluxes() const;
     void setGhostFluxes(const std::vector<double>& triples);
+    /// Mass fluxes of the last accepted step (part of the state).
+    MassFluxes& massFluxes() { return massFluxes_; }
+    const MassFluxes& massFluxes() const { return massFluxes_; }
     bool isFinite() const;  ///< the last solution is a number everywhere. Collective.
 
 private:
@@ -113,6 +117,7 @@ private:
     FlowEquation equation_;
     FlowLinearSolver solver_;
     DualCellTransport transport_;
+    MassFluxes massFluxes_;         // of the last step
     std::unique_ptr<PhaseFieldSupg> supg_;  // the paper's form, when selected
     InterfacePlanes planes_;
     std::vector<double> level_;             // of the last search in this step; empty: none yet

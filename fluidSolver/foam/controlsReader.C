@@ -34,6 +34,7 @@ const std::vector<ControlEntry>& controlsTable()
     using N = NumericsControls;
     static const std::vector<ControlEntry> table{
         {"timeOrder", &N::timeOrder, {1, 2}, "1: BDF1, 2: BDF2"},
+        {"surfaceTimeOrder", &N::surfaceTimeOrder, {1, 2}, "order in time of the inertia where the surface passes"},
         {"tauFactor", &N::tauFactor, {0, 10, true}, "tau of SUPG and PSPG over Tezduyar's where inertia counts"},
         {"tauContFactor", &N::tauContFactor, {0, 100}, "multiplies the continuity stabilisation"},
         {"tauContWithTimeStep", &N::tauContWithTimeStep, anyValue, "on: time step within the stabilisation time; off: steady form"},

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Mass fluxes of the last time step. BDF2 of a density that the transport moves is balanced by fluxes at the end of the step, extrapolated from
+/// the means over this step and the last: c0 m^(n+1) + c1 m^n + c2 m^(n-1) = -(1 + x) sum F^(n+1/2) + x sum F^(n-1/2), x = dt/(dt + dtOld).
+#pragma once
+
+#include "core/simplexMesh.hpp"
+#include "equations/dualCellTransport.hpp"
+#include "equations/materials.hpp"
+
+#include <cmath>
+#include <vector>
+
+namespace flotsam
+{
+
+/// Mean over the step of the mass that flows between two nodes of an element [kg/s per thickness]: what flows has the density of its share of liquid.
+inline double massFlux(double liquidFlux, double totalFlux, const FluidProperties& fluid, const NumericsControls& controls)
+{
+    // fluxes may be as small as 1e-310: the quotient only where it is below 1
+    const double liquid = std::abs(liquidFlux), total = std::abs(totalFlux);
+    const bool isForward = (liquidFlux > 0) == (totalFlux > 0);
+    const double alpha = !isForward || liquid == 0 ? 0 : liquid < total ? liquid/total : 1;
+    return density(fluid, controls, alpha)*totalFlux;
+}
+
+class MassFluxes
+{
+public:
+    MassFluxes(const SimplexMesh& mesh, const FluidProperties& fluid, const NumericsControls& controls);
+
+    /// Keeps those of the transport's last step in elements in which the density varied at its start or end. alphaOld, alpha: nNodes, both levels.
+    void keep(const DualCellTransport& transport, const std::vector<double>& alphaOld, const std::vector<double>& alpha);
+
+    /// Of the pairs of an element's corners in the order of CornerPairs; null where the density did not vary.
+    const double* of(int element) const { return at_.empty() || at_[element] < 0 ? nullptr : &values_[std::size_t(at_[element])*nPairs_]; }
+
+    /// Part of a run's state: element and fluxes of every element kept.
+    std::vector<double> records() const;
+    void setRecords(const std::vector<double>& records);
+
+private:
+    bool isVarying(int element, const std::vector<double>& alphaOld, const std::vector<double>& alpha) const;
+    void clear();
+
+    const SimplexMesh& mesh_;
+    const FluidProperties& fluid_;
+    const NumericsControls& controls_;
+    const int nPairs_;
+    std::vector<int> at_;           // per element: its place among those kept, -1
+    std::vector<int> elements_;     // those kept
+    std::vector<double> values_;
+};
+
+} // namespace flotsam
