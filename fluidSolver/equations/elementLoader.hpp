@@ -63,7 +63,7 @@ struct ElementSource
 };
 
 /// Convection by the transport's mass fluxes, extrapolated from the middles of the last steps to the end of this one as BDF2 of the nodes' masses asks
-/// (massFluxes.hpp); beside nodes of first order moved there with the mean density.
+/// (massFluxes.hpp); without extrapolation and beside nodes of first order moved there with the mean density.
 /// Half the flux is the skew-symmetric form, in which a node's own velocity does not appear: a gas node through which in one step more mass flows than its dual cell holds would be moved by a multiple of its neighbours' differences, in splashes to 100 m/s and more.
 /// What exceeds the smaller of the two nodes' masses, shared among the D pairs that a node has in an element, is therefore taken upwind: the differences
 /// of velocities around a node then do not move it by more than themselves. (All of the mass for each pair: in 3D spikes remain, and a dam break lost half its water.)
@@ -225,7 +225,11 @@ inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& 
     if (!loadResidualData<D>(e, mesh, step, controls, nodal, data, source)) return false;
     data.second = source.cut ? source.cut->second : nullptr;
     loadInertia<D>(&mesh.elements[std::size_t(e)*(D + 1)], step, controls, nodal, source, data);
-    if (data.isVarying) loadConvection<D>(source, step.massFluxes->of(e), step.time.extrapolation, fluid, controls, data);
+    if (data.isVarying)
+    {
+        const bool isExtrapolated = step.massFluxes != nullptr;
+        loadConvection<D>(source, isExtrapolated ? step.massFluxes->of(e) : nullptr, isExtrapolated ? step.time.extrapolation : 0, fluid, controls, data);
+    }
     data.tauCont = controls.tauContFactor
         *tauContinuity(controls.tauContWithTimeStep, data.rho, squared<D>(data.advection), mesh.h[e], data.mu/data.rho, source.rates);
     return true;

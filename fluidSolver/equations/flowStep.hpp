@@ -27,7 +27,7 @@ struct FlowStepData
     const std::vector<Solid>* solids = nullptr; ///< pose and motion at t^(n+1); free: predicted
     const std::vector<PatchValues>* patchValues = nullptr; ///< at t^(n+1)
     const DualCellTransport* transport = nullptr;           ///< its last fluxes carry the momentum; null: a rho does
-    const MassFluxes* massFluxes = nullptr;                 ///< of the last step; with transport
+    const MassFluxes* massFluxes = nullptr;                 ///< of the last step; null: not extrapolated
     const std::vector<double>* fineScale = nullptr;         ///< nElements*dim: u' of the last solve, part of what convects [m/s]; null: 0
     const std::vector<double>* elementForce = nullptr;      ///< nElements*dim: gravity [N/m^3]
 };

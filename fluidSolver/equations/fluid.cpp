@@ -208,7 +208,7 @@ void Fluid::assemble()
     step.elementForce = &force_;
     step.fineScale = &state_.fineScale;
     step.transport = fluid_.isTwoPhase && !supg_ ? &transport_ : nullptr;
-    step.massFluxes = &massFluxes_;
+    step.massFluxes = step.transport && controls_.surfaceTimeOrder == 2 ? &massFluxes_ : nullptr;
     equation_.assemble(step);
     equation_.system().isNewMatrix = true;
     setFirstGuess();
@@ -315,7 +315,7 @@ void Fluid::endStep()
     }
     moveInactiveNodes();
     equation_.ghostFluxes(x_, ghostFlux_);
-    if (fluid_.isTwoPhase && !supg_) massFluxes_.keep(transport_, state_.alphaOld, state_.alpha);
+    if (fluid_.isTwoPhase && !supg_ && controls_.surfaceTimeOrder == 2) massFluxes_.keep(transport_, state_.alphaOld, state_.alpha);
     state_.dtOld = state_.dt;
     state_.dt = time_.dt;
     state_.time += time_.dt;

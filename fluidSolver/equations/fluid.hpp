@@ -85,7 +85,7 @@ public:
     /// Ghost-penalty fluxes of the last accepted solve as {a, b, flux} triples (part of the state of a run with solids).
     std::vector<double> ghostFluxes() const;
     void setGhostFluxes(const std::vector<double>& triples);
-    /// Mass fluxes of the last accepted step (part of the state).
+    /// Mass fluxes of the last accepted step, with surfaceTimeOrder 2 (part of the state).
     MassFluxes& massFluxes() { return massFluxes_; }
     const MassFluxes& massFluxes() const { return massFluxes_; }
     bool isFinite() const;  ///< the last solution is a number everywhere. Collective.
@@ -117,7 +117,7 @@ private:
     FlowEquation equation_;
     FlowLinearSolver solver_;
     DualCellTransport transport_;
-    MassFluxes massFluxes_;         // of the last step
+    MassFluxes massFluxes_;         // of the last step; surfaceTimeOrder 2
     std::unique_ptr<PhaseFieldSupg> supg_;  // the paper's form, when selected
     InterfacePlanes planes_;
     std::vector<double> level_;             // of the last search in this step; empty: none yet

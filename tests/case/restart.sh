@@ -74,6 +74,7 @@ EOF
 
 makeFloatingBar whole
 fixedSteps whole 0.001 0.04 20
+echo 'flotsam { surfaceTimeOrder 2; }' >> whole/system/fvSolution # its mass fluxes are part of the state
 stopAndGoOn whole 0.02 0.04
 
 makeFloatingBar touching
