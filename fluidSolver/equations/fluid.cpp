@@ -239,6 +239,7 @@ SolveReport Fluid::solve(const std::vector<FreeBody>& bodies)
     equation_.setFreeBodies(bodies, time_.dt);
     solver_.setSystem(equation_.system());
     const SolveReport report = solver_.solve(x_, q_);
+    if (!solids_ || solids_->empty()) equation_.setPressureLevel(x_);
     equation_.system().isNewMatrix = false;
     return report;
 }
