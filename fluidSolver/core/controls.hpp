@@ -24,7 +24,7 @@ struct NumericsControls
 {
     // time
     int timeOrder = 2;              ///< 1: BDF1, 2: BDF2
-    int surfaceTimeOrder = 1;       ///< of the inertia where the density changes steeply in time
+    int surfaceTimeOrder = 2;       ///< of the inertia where the density changes steeply in time
     // stabilisation (paper eq 5)
     double tauFactor = 0.25;        ///< tau of SUPG and PSPG over Tezduyar's where inertia counts
     double tauContFactor = 1;       ///< multiplies tau_cont

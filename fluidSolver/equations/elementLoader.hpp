@@ -64,7 +64,8 @@ struct ElementSource
 
 /// Convection by the transport's mass fluxes, extrapolated from the middles of the last steps to the end of this one as BDF2 of the nodes' masses asks
 /// (massFluxes.hpp); without extrapolation and beside nodes of first order moved there with the mean density.
-/// Half the flux is the skew-symmetric form, in which a node's own velocity does not appear: a gas node through which in one step more mass flows than its dual cell holds would be moved by a multiple of its neighbours' differences, in splashes to 100 m/s and more.
+/// Half the flux is the skew-symmetric form, in which a node's own velocity does not appear: a gas node through which in one step more mass flows than its
+/// dual cell holds would be moved by a multiple of its neighbours' differences, in splashes to 100 m/s and more.
 /// What exceeds the smaller of the two nodes' masses, shared among the D pairs that a node has in an element, is therefore taken upwind: the differences
 /// of velocities around a node then do not move it by more than themselves. (All of the mass for each pair: in 3D spikes remain, and a dam break lost half its water.)
 template<int D>
@@ -163,7 +164,8 @@ inline bool loadResidualData(int e, const SimplexMesh& mesh, const FlowStepData&
     return true;
 }
 
-/// -(c1 rho^n u^n + c2 rho^(n-1) u^(n-1)) of corner a: as the velocity's own history with one density, and what the other adds.
+/// -(c1 rho^n u^n + c2 rho^(n-1) u^(n-1)) of corner a with the element's densities: the velocity's own history, loaded before, times one of them, and what the
+/// other adds. A third of the reads of the sum itself, in most elements.
 template<int D>
 inline void loadMomentumHistory(int a, int node, double old, double older, const FlowStepData& step, const TimeScheme& time, ElementData<D>& data)
 {
@@ -172,13 +174,12 @@ inline void loadMomentumHistory(int a, int node, double old, double older, const
     for (int d = 0; d < D && more != 0; ++d) data.momentumHistory[a*D + d] += more*step.state->uOld[std::size_t(node)*D + d];
 }
 
-/// Inertia, momentum history and mass rate of corner a by its own densities.
+/// Inertia, momentum history and mass rate of corner a by its own densities. first: BDF1 of the step.
 template<int D>
-inline void loadNodalInertia(int a, int node, bool isFirstOrder, const FlowStepData& step, const NodalData& nodal, ElementData<D>& data)
+inline void loadNodalInertia(int a, int node, bool isFirstOrder, const TimeScheme& first, const FlowStepData& step, const NodalData& nodal, ElementData<D>& data)
 {
     const double now = nodal.rho[node], old = nodal.rhoOld[node], older = nodal.rhoOlder[node];
     const auto inertia = [&](const TimeScheme& t) { return 0.5*(t.c0*now - t.c1*old - t.c2*older); };
-    const TimeScheme first = TimeScheme::bdf(1, step.time.dt, 0);
     data.isFirstOrder[a] = isFirstOrder || inertia(step.time) < leastInertia*inertia(first);
     const TimeScheme& t = data.isFirstOrder[a] ? first : step.time;
     data.nodalInertia[a] = inertia(t);
@@ -207,10 +208,11 @@ inline void loadInertia(const int* nodes, const FlowStepData& step, const Numeri
         return;
     }
     const bool isFirstOrder = source.isSteep && controls.surfaceTimeOrder == 1;
+    const TimeScheme first = TimeScheme::bdf(1, step.time.dt, 0);
     double least = data.inertia;
     for (int a = 0; a <= D; ++a)
     {
-        loadNodalInertia(a, nodes[a], isFirstOrder, step, nodal, data);
+        loadNodalInertia(a, nodes[a], isFirstOrder, first, step, nodal, data);
         least = std::min(least, data.nodalInertia[a]);
     }
     data.streamlineDensity *= least/data.inertia;
