@@ -72,6 +72,7 @@ struct FlowScene
         step.time = TimeScheme::bdf(2, timeStep(), timeStep());
         step.state = &state;
         step.patchValues = &values;
+        step.basins = &basins;
         step.transport = &transport;
         step.elementForce = &force;
         equation.assemble(step);

@@ -15,7 +15,7 @@ namespace flotsam
 namespace
 {
 
-constexpr double startReduction = 0.1; // of the residual by a solve
+constexpr double startReduction = 0.02; // of the residual by a solve
 constexpr double negligible = 1e-3; // of the tolerance: a residual that needs no solve
 
 /// Arrays of two vectors for the time of a product.
@@ -197,6 +197,7 @@ SolveReport FlowLinearSolver::solve(std::vector<double>& x, std::vector<double>&
     report.rebuiltPreconditioner = me.isNewMatrix && me.system.pressure().isNew();
     double first = 0, norm = 0;
     me.setResidual(x, q, first, norm);
+    const double unbalanced = report.unbalancedVolume = me.system.unbalancedVolume();
     const bool isNumber = norm < 1e300 && first < 1e300; // otherwise the caller repeats the step
     report.initial = report.final = !isNumber ? std::numeric_limits<double>::infinity() : norm > 0 ? first/norm : 0;
     if (!isNumber) return report;
@@ -226,6 +227,7 @@ SolveReport FlowLinearSolver::solve(std::vector<double>& x, std::vector<double>&
     }
     if (isTelling) me.system.pressure().countIterations(report.iterations);
     report.rebuiltPreconditioner = me.isNewMatrix && me.system.pressure().isNew();
+    report.unbalancedVolume = unbalanced;
     return report;
 }
 

@@ -68,20 +68,19 @@ void PressureHierarchy::addGhosts(const FlowSystem& system)
 
 void PressureHierarchy::fillMatrix(const FlowSystem& system)
 {
-    const double shift = system.hasPressureLevel ? 1 : 1 + singularShift;
     std::vector<PetscInt> columns;
     std::vector<PetscScalar> values;
     for (int i = 0; i < mesh_.nOwned; ++i)
     {
         const PetscInt row = mesh_.globalNode[i];
-        const bool isFree = isFreePressure(system, i);
+        const bool isFree = isFreePressure(system, i), hasLevel = system.nLevels > 0 && system.level[i] >= 0;
         columns.clear();
         values.clear();
         for (int k = graph_.rowStart[i]; k < graph_.rowStart[i + 1]; ++k)
         {
             const int j = graph_.column[k];
             columns.push_back(mesh_.globalNode[j]);
-            if (i == j) values.push_back(isFree ? system.schur[k]*shift : schurDiagonal(system, graph_, i));
+            if (i == j) values.push_back(isFree ? system.schur[k]*(1 + (hasLevel ? singularShift : 0)) : schurDiagonal(system, graph_, i));
             else values.push_back(isFree && isFreePressure(system, j) ? system.schur[k] : 0);
         }
         check(MatSetValues(matrix_, 1, &row, PetscInt(columns.size()), columns.data(), values.data(), ADD_VALUES));

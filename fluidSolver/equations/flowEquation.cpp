@@ -90,7 +90,7 @@ void FlowEquation::assemble(const FlowStepData& step)
         removeMassDefect<3>();
         assembleGhosts<3>();
     }
-    weighPressureLevel();
+    findPressureLevels();
 }
 
 /// Zeroes row i of the matrix unless that has been done. Just before its first use: the row then comes into the cache once instead of twice.
