@@ -8,6 +8,13 @@
 namespace flotsam
 {
 
+namespace
+{
+
+constexpr double leastViscousNumber = 0.5;   // from there on a cycle for each component costs less than the iterations it saves
+
+} // namespace
+
 ScaledFlowSystem::ScaledFlowSystem(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo)
 :   mesh_(mesh), graph_(graph), halo_(halo), B_(mesh.dim + 1), velocity_(graph, mesh.nOwned, mesh.dim), pressure_(mesh, graph, halo), solids_(halo)
 {
@@ -27,19 +34,49 @@ void ScaledFlowSystem::set(const FlowSystem& system)
     solids_.set(system);
     q_.assign(system.solids.size()*system.nDof, 0.0);
     qRows_ = qWork_ = q_;
-    if (system.isNewMatrix) updatePressure();
+    if (system.isNewMatrix) updateHierarchies();
 }
 
-void ScaledFlowSystem::updatePressure()
+void ScaledFlowSystem::updateHierarchies()
 {
     for (int i = 0; i < mesh_.nOwned; ++i) pressureRows_[i] = scale_[std::size_t(i)*B_ + B_ - 1];
     pressure_.update(*system_, pressureRows_);
+    updateViscousBlock();
+}
+
+/// As old as the pressure's hierarchy.
+void ScaledFlowSystem::updateViscousBlock()
+{
+    if (system_->viscousNumber < leastViscousNumber)
+    {
+        viscous_.reset();
+        return;
+    }
+    const bool isNew = !viscous_;
+    if (isNew) viscous_ = std::make_unique<ViscousBlock>(mesh_, graph_, halo_);
+    if (isNew || pressure_.isNew()) viscous_->build(*system_, scale_);
+    else viscous_->rescale(scale_);
+}
+
+/// local_ = approximate inverse of the velocity block times the momentum rows of r.
+void ScaledFlowSystem::solveVelocity(const double* r)
+{
+    if (viscous_) viscous_->solve(r, scale_.data(), local_.data());
+    else velocity_.solve(r, scale_.data(), local_.data());
+    product().project(local_.data());
+    if (!viscous_) velocity_.relaxLightNodes(r, scale_.data(), local_.data());
+}
+
+void ScaledFlowSystem::subtractFromVelocity(const double* gradient)
+{
+    if (viscous_) viscous_->subtract(gradient, local_.data());
+    else velocity_.subtractDiagonal(gradient, local_.data());
 }
 
 void ScaledFlowSystem::renewPressure()
 {
     pressure_.forget();
-    updatePressure();
+    updateHierarchies();
 }
 
 template<int D>
@@ -145,9 +182,7 @@ void ScaledFlowSystem::solvePressure(const double* r)
 void ScaledFlowSystem::preconditionUnscaled(const double* r)
 {
     const FlowOperator op = product();
-    velocity_.solve(r, scale_.data(), local_.data());
-    op.project(local_.data());
-    velocity_.relaxLightNodes(r, scale_.data(), local_.data());
+    solveVelocity(r);
     halo_.update(local_.data(), B_);
     if (!solids_.isEmpty())
     {
@@ -156,7 +191,7 @@ void ScaledFlowSystem::preconditionUnscaled(const double* r)
     }
     solvePressure(r);
     op.gradient(pressureLocal_.data(), gradient_.data());
-    velocity_.subtractDiagonal(gradient_.data(), local_.data());
+    subtractFromVelocity(gradient_.data());
     for (int i = 0; i < mesh_.nOwned; ++i) local_[std::size_t(i)*B_ + B_ - 1] = pressureLocal_[i];
     op.project(local_.data());
     if (solids_.isEmpty()) return;

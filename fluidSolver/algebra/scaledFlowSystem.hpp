@@ -7,6 +7,7 @@
 #include "algebra/pressureHierarchy.hpp"
 #include "algebra/solidUnknowns.hpp"
 #include "algebra/velocityBlock.hpp"
+#include "algebra/viscousBlock.hpp"
 
 namespace flotsam
 {
@@ -41,7 +42,10 @@ public:
 
 private:
     template<int D> void setDiagonals();
-    void updatePressure();
+    void updateHierarchies();
+    void updateViscousBlock();
+    void solveVelocity(const double* r);
+    void subtractFromVelocity(const double* gradient);
     void solvePressure(const double* r);
     void addPressureSources(double* r) const;
     void preconditionUnscaled(const double* r);
@@ -56,6 +60,7 @@ private:
     const int B_;
     const FlowSystem* system_ = nullptr;
     VelocityBlock velocity_;
+    std::unique_ptr<ViscousBlock> viscous_; // instead of velocity_ where viscosity rules; null: nowhere
     PressureHierarchy pressure_;
     SolidUnknowns solids_;
 
