@@ -171,3 +171,18 @@ TEST_CASE("a piston between two chambers full of water does not move")
     CHECK(std::abs(record.motion.velocity[0]) < 1e-6);
     CHECK(record.fluidForce[0] == doctest::Approx(-piston.mass*gravity).epsilon(1e-3));
 }
+
+TEST_CASE("one basin with a pressure from a boundary, one without")
+{
+    Tank tank;
+    tank.fluid.isTwoPhase = false;
+    tank.fluid.gravity = {0, 0, 0};
+    tank.patches[0] = makePatch(tank.mesh, 0, BoundaryPatch::Velocity::Open); // at 0 Pa
+    CoupledStep run(tank.mesh, tank.halo, tank.fluid, tank.controls, tank.patches, Scene({Tank::gate()}, {}, Vec3::Zero()), nullptr, tank.timers);
+    run.start(tank.start(1, 1), false);
+    for (int k = 0; k < 10; ++k)
+    {
+        REQUIRE(run.step(0.01).isAccepted);
+        CHECK(run.records()[0].fluidForce[0] == doctest::Approx(-tank.fluid.pRefValue).epsilon(1e-3));
+    }
+}
