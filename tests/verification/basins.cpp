@@ -41,12 +41,12 @@ struct Tank
         FlowState state = restState(mesh);
         const DualCells cells(mesh);
         const std::vector<double> width = interfaceWidth(mesh, NodeGraph(mesh), halo, controls.interfaceWidth);
-        const double up[3] = {0, -1, 0};
+        const double normal[3] = {0, -1, 0};
         for (int i = 0; i < mesh.nNodes; ++i)
         {
             const double* x = &mesh.x[2*std::size_t(i)];
             const bool isLeft = x[0] < middle;
-            state.alpha[i] = profileSlab(&cells, i, up, (isLeft ? left : right) - x[1], width[i]).mean();
+            state.alpha[i] = profileSlab(&cells, i, normal, (isLeft ? left : right) - x[1], width[i]).mean();
             state.p[i] = isLeft ? 8e5 : -3e4;
         }
         halo.update(state.alpha, 1);
@@ -137,7 +137,7 @@ TEST_CASE("a gate that sinks below the water and rises again")
     const double liquid = 0.853*0.675 + 0.827*0.325;
     std::printf("gate swept %.4f m2, of it %.4f in the tank; phase field moved by %.2e of the liquid\n", swept, 2*0.6*0.32, moved/liquid);
     CHECK(swept == doctest::Approx(2*0.6*0.32).epsilon(0.02));
-    CHECK(moved < 0.01*liquid); // while it is in the gas: 0.05 when the water makes room, too
+    CHECK(moved < 0.01*liquid); // while it is in the gas; 0.09 when all fluid makes room
 }
 
 TEST_CASE("a piston between two chambers full of water does not move")
