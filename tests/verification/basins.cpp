@@ -93,6 +93,25 @@ struct Tank
     }
 };
 
+/// As the gate, free, and what touches nothing.
+DemSetup makePiston(double density)
+{
+    BodyDefinition piston;
+    piston.name = "piston";
+    piston.shape = makeBox(Vec3::Zero(), Vec3(0.32, 1.4, 1));
+    piston.volume = 0.32*1.4;
+    piston.mass = density*piston.volume;
+    piston.principalInertia = piston.mass/12*Vec3(1 + 1.4*1.4, 1 + 0.32*0.32, 1.4*1.4 + 0.32*0.32);
+    piston.pose.position = Vec3(middle, 0.5, 0.5);
+    piston.isPlanar = true;
+    piston.spheres = {{Vec3::Zero(), 0.02}};
+    DemSetup dem;
+    dem.bodies = {piston};
+    dem.laws = {ContactLaw()};
+    dem.box = {Vec3(-1, -1, 0), Vec3(3, 2, 1)};
+    return dem;
+}
+
 } // namespace
 
 TEST_CASE("a gate between two basins feels the difference of their depths")
@@ -145,19 +164,8 @@ TEST_CASE("a piston between two chambers full of water does not move")
     Tank tank;
     tank.fluid.isTwoPhase = false;
     tank.fluid.gravity = {gravity, 0, 0};
-    BodyDefinition piston;
-    piston.name = "piston";
-    piston.shape = makeBox(Vec3::Zero(), Vec3(0.32, 1.4, 1));
-    piston.volume = 0.32*1.4;
-    piston.mass = 3000*piston.volume;
-    piston.principalInertia = piston.mass/12*Vec3(1 + 1.4*1.4, 1 + 0.32*0.32, 1.4*1.4 + 0.32*0.32);
-    piston.pose.position = Vec3(middle, 0.5, 0.5);
-    piston.isPlanar = true;
-    piston.spheres = {{Vec3::Zero(), 0.02}};
-    DemSetup dem;
-    dem.bodies = {piston};
-    dem.laws = {ContactLaw()};
-    dem.box = {Vec3(-1, -1, 0), Vec3(3, 2, 1)};
+    const DemSetup dem = makePiston(3000);
+    const BodyDefinition& piston = dem.bodies[0];
     CoupledStep run(tank.mesh, tank.halo, tank.fluid, tank.controls, tank.patches, Scene({}, {piston}, Vec3(gravity, 0, 0)), &dem, tank.timers);
     run.start(restState(tank.mesh), true);
     for (int k = 0; k < 20; ++k)
@@ -170,6 +178,23 @@ TEST_CASE("a piston between two chambers full of water does not move")
     std::printf("piston: %.2e m/s, force of the water %.1f of its weight %.1f N\n", record.motion.velocity[0], record.fluidForce[0], piston.mass*gravity);
     CHECK(std::abs(record.motion.velocity[0]) < 1e-6);
     CHECK(record.fluidForce[0] == doctest::Approx(-piston.mass*gravity).epsilon(1e-3));
+}
+
+TEST_CASE("a heavy body between two basins with gas feels the difference of their depths")
+{
+    Tank tank;
+    const DemSetup dem = makePiston(1e5);
+    CoupledStep run(tank.mesh, tank.halo, tank.fluid, tank.controls, tank.patches, Scene({}, dem.bodies, Vec3::Zero()), &dem, tank.timers);
+    run.start(tank.start(0.675, 0.325), false);
+    const double expected = tank.hydrostaticForce(0.675, 0.325);
+    for (int k = 0; k < 20; ++k)
+    {
+        const StepResult result = run.step(0.005);
+        REQUIRE(result.isAccepted);
+        CHECK(result.hasConverged);
+        CHECK(run.records()[0].fluidForce[0] == doctest::Approx(expected).epsilon(0.02));
+    }
+    std::printf("force on the body %.1f N, of the depths %.1f N\n", run.records()[0].fluidForce[0], expected);
 }
 
 TEST_CASE("one basin with a pressure from a boundary, one without")
