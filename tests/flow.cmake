@@ -19,8 +19,12 @@ flotsam_test(fallingSpray verification SOURCES verification/fallingSpray.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(pressureLevel verification SOURCES verification/pressureLevel.cpp
   LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
+flotsam_test(basins verification SOURCES verification/basins.cpp
+  LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
 flotsam_test(squeezedFluid verification SOURCES verification/squeezedFluid.cpp
   LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
+flotsam_test(viscousSolve verification SOURCES verification/viscousSolve.cpp
+  LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(heldBody verification SOURCES verification/heldBody.cpp
   LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
 

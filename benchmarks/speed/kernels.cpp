@@ -40,13 +40,14 @@ struct FlowScene
     FlowState state;
     DualCellTransport transport;
     FlowEquation equation;
+    Basins basins;
     std::vector<double> force;
 
     explicit FlowScene(int dim)
     :   mesh(makeBoxMesh(MPI_COMM_WORLD, dim, dim == 2 ? std::array<int, 3>{cells2D, cells2D, 1} : std::array<int, 3>{cells3D, cells3D, cells3D},
             {0, 0, 0}, {1, 1, 1}, 0.1)),
         graph(mesh), halo(mesh, MPI_COMM_WORLD), patches(allPatches(mesh, BoundaryPatch::Velocity::Fixed)), values(patches.size()),
-        state(restState(mesh)), transport(mesh, graph, halo, controls), equation(mesh, graph, halo, fluid, controls, patches),
+        state(restState(mesh)), transport(mesh, graph, halo, controls), equation(mesh, graph, halo, fluid, controls, patches), basins(mesh, halo),
         force(std::size_t(mesh.nElements)*dim, 0.0)
     {
         for (int i = 0; i < mesh.nNodes; ++i)
@@ -72,6 +73,7 @@ struct FlowScene
         step.time = TimeScheme::bdf(2, timeStep(), timeStep());
         step.state = &state;
         step.patchValues = &values;
+        step.basins = &basins;
         step.transport = &transport;
         step.elementForce = &force;
         equation.assemble(step);

@@ -123,6 +123,7 @@ void CoupledStep::solveWithContact(StepResult& result)
             report = fluid_.solve(coupling_ ? scene_.freeBodies(*coupling_, fluid_.newLoadShare()) : std::vector<FreeBody>());
         }
         ++result.solves;
+        result.unbalancedVolume = report.unbalancedVolume*fluid_.timeStep();
         result.linearIterations += report.iterations;
         result.hasConverged = result.hasConverged && report.hasConverged;
         if (!fluid_.isFinite()) result.failure = "the solution is not a number";

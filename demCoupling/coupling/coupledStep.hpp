@@ -24,6 +24,7 @@ struct StepResult
     int solves = 0;             ///< 1 + contact repeats
     bool hasConverged = true;   ///< linear solver, all solves
     double contactMismatch = 0;
+    double unbalancedVolume = 0; ///< that gas of basins without a prescribed pressure gave way to or filled [m^dim]
 };
 
 class CoupledStep

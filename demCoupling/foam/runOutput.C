@@ -99,6 +99,7 @@ void RunOutput::record(const CoupledStep& step, const StepResult& result, const 
     mass_.outflow += mesh_.thickness*result.transport.outflow;
     mass_.final = step.fluid().liquidVolume();
     redistributed_ += mesh_.thickness*std::abs(result.transport.redistributed);
+    unbalanced_ += mesh_.thickness*result.unbalancedVolume;
     limitedFaces_ += result.transport.nLimited;
     if (!result.hasConverged) ++notConverged_;
     if (step.coupling())
@@ -158,6 +159,7 @@ void RunOutput::end(const CoupledStep&)
         {"contacts not converged", unfinishedContacts_}, {"limited faces of the phase field", limitedFaces_},
         {"elements shared by two solids (largest)", sharedElements_}};
     summary.mass = mass_;
+    summary.unbalancedVolume = unbalanced_;
     summary.structures = forces_.result();
     summary.wall = timers_.wall();
     summary.cpu = timers_.cpu();

@@ -21,6 +21,7 @@ struct SolveReport
     double initial = 0, final = 0;  ///< scaled residual over scaled right-hand side
     bool hasConverged = false;
     bool rebuiltPreconditioner = false;
+    double unbalancedVolume = 0;    ///< swept in basins without a prescribed pressure beyond what these can give, at the start [m^dim/s]
 };
 
 class FlowLinearSolver

@@ -58,8 +58,10 @@ struct FlowSystem
     std::vector<char> isActive;                 ///< nNodes: has a fluid element
     std::vector<char> isLight;                  ///< nOwned: beside elements far denser than the node itself (gas beside water)
     std::vector<double> dualVolume;             ///< nOwned: fluid part [m^dim]
-    bool hasPressureLevel = false;              ///< some node has its pressure prescribed (all ranks)
-    std::vector<double> levelWeight;            ///< nOwned, sum 1 over all ranks: without a level the mean whose change is zero; with one: empty
+    int nLevels = 0;                            ///< groups of basins without a prescribed pressure that share one mean (all ranks)
+    std::vector<int> level;                     ///< nNodes: the group of a node, -1: its pressure has no mean to keep; empty: no groups
+    std::vector<double> levelWeight;            ///< nOwned, sum 1 over the nodes of a group (all ranks): the mean that a solve keeps; empty: no groups
+    double viscousNumber = 0;                   ///< mean of mu dt/(rho h^2) over the elements with fluid (all ranks)
     bool isNewMatrix = true;                    ///< assembled since the last solve; else only right-hand sides of solids have changed
 };
 

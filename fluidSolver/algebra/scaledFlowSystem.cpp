@@ -3,9 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace flotsam
 {
+
+namespace
+{
+
+constexpr double leastViscousNumber = 0.5;   // from there on a cycle for each component costs less than the iterations it saves
+
+} // namespace
 
 ScaledFlowSystem::ScaledFlowSystem(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo)
 :   mesh_(mesh), graph_(graph), halo_(halo), B_(mesh.dim + 1), velocity_(graph, mesh.nOwned, mesh.dim), pressure_(mesh, graph, halo), solids_(halo)
@@ -26,23 +34,49 @@ void ScaledFlowSystem::set(const FlowSystem& system)
     solids_.set(system);
     q_.assign(system.solids.size()*system.nDof, 0.0);
     qRows_ = qWork_ = q_;
-    fluidVolume_ = 0;
-    for (int i = 0; i < mesh_.nOwned && !system.hasPressureLevel; ++i)
-        if (isFreePressure(system, i)) fluidVolume_ += system.dualVolume[i];
-    fluidVolume_ = halo_.sum(fluidVolume_);
-    if (system.isNewMatrix) updatePressure();
+    if (system.isNewMatrix) updateHierarchies();
 }
 
-void ScaledFlowSystem::updatePressure()
+void ScaledFlowSystem::updateHierarchies()
 {
     for (int i = 0; i < mesh_.nOwned; ++i) pressureRows_[i] = scale_[std::size_t(i)*B_ + B_ - 1];
     pressure_.update(*system_, pressureRows_);
+    updateViscousBlock();
+}
+
+/// As old as the pressure's hierarchy.
+void ScaledFlowSystem::updateViscousBlock()
+{
+    if (system_->viscousNumber < leastViscousNumber)
+    {
+        viscous_.reset();
+        return;
+    }
+    const bool isNew = !viscous_;
+    if (isNew) viscous_ = std::make_unique<ViscousBlock>(mesh_, graph_, halo_);
+    if (isNew || pressure_.isNew()) viscous_->build(*system_, scale_);
+    else viscous_->rescale(scale_);
+}
+
+/// local_ = approximate inverse of the velocity block times the momentum rows of r.
+void ScaledFlowSystem::solveVelocity(const double* r)
+{
+    if (viscous_) viscous_->solve(r, scale_.data(), local_.data());
+    else velocity_.solve(r, scale_.data(), local_.data());
+    product().project(local_.data());
+    if (!viscous_) velocity_.relaxLightNodes(r, scale_.data(), local_.data());
+}
+
+void ScaledFlowSystem::subtractFromVelocity(const double* gradient)
+{
+    if (viscous_) viscous_->subtract(gradient, local_.data());
+    else velocity_.subtractDiagonal(gradient, local_.data());
 }
 
 void ScaledFlowSystem::renewPressure()
 {
     pressure_.forget();
-    updatePressure();
+    updateHierarchies();
 }
 
 template<int D>
@@ -76,31 +110,32 @@ void ScaledFlowSystem::setDiagonals()
     }
 }
 
-/// Removes from the continuity rows what no velocity can balance when no pressure is prescribed (closed boxes).
-void ScaledFlowSystem::balanceContinuity(double* y) const
+/// Takes from the continuity rows of basins without a prescribed pressure what no velocity can balance: volume that surfaces sweep there, spread as the level is weighed,
+/// so that gas makes room for it. Returns that volume [m^dim/s], all basins.
+double ScaledFlowSystem::balanceContinuity(double* y) const
 {
-    if (system_->hasPressureLevel) return;
-    double sum = 0;
+    const FlowSystem& s = *system_;
+    if (s.nLevels == 0) return 0;
+    std::vector<double> sum(s.nLevels, 0.0);
     for (int i = 0; i < mesh_.nOwned; ++i)
-        if (isFreePressure(*system_, i)) sum += y[std::size_t(i)*B_ + B_ - 1];
-    sum = halo_.sum(sum);
+        if (s.level[i] >= 0) sum[s.level[i]] += y[std::size_t(i)*B_ + B_ - 1];
+    halo_.sum(sum.data(), s.nLevels);
     for (int i = 0; i < mesh_.nOwned; ++i)
-        if (isFreePressure(*system_, i)) y[std::size_t(i)*B_ + B_ - 1] -= sum/fluidVolume_*system_->dualVolume[i];
+        if (s.level[i] >= 0) y[std::size_t(i)*B_ + B_ - 1] -= s.levelWeight[i]*sum[s.level[i]];
+    return std::accumulate(sum.begin(), sum.end(), 0.0, [](double all, double v) { return all + std::abs(v); });
 }
 
-/// Solids that are partly outside of the mesh feel the level: a solve must not change it. Without them its change means nothing, and the mean by volume leaves
-/// fine meshes at rest a hundred times stiller (case `hydrostatic`, 80).
-void ScaledFlowSystem::removeMean(std::vector<double>& p) const
+/// A solve does not change the level of such basins: solids that are partly outside of the mesh or between two of them feel it.
+void ScaledFlowSystem::removeMeans(std::vector<double>& p) const
 {
-    if (system_->hasPressureLevel) return;
-    double sum = 0;
-    if (solids_.isEmpty())
-        for (int i = 0; i < mesh_.nOwned; ++i) sum += p[i]*system_->dualVolume[i]/fluidVolume_;
-    else
-        for (int i = 0; i < mesh_.nOwned; ++i) sum += p[i]*system_->levelWeight[i];
-    sum = halo_.sum(sum);
+    const FlowSystem& s = *system_;
+    if (s.nLevels == 0) return;
+    std::vector<double> mean(s.nLevels, 0.0);
     for (int i = 0; i < mesh_.nOwned; ++i)
-        if (isFreePressure(*system_, i)) p[i] -= sum;
+        if (s.level[i] >= 0) mean[s.level[i]] += s.levelWeight[i]*p[i];
+    halo_.sum(mean.data(), s.nLevels);
+    for (int i = 0; i < mesh_.nOwned; ++i)
+        if (s.level[i] >= 0) p[i] -= mean[s.level[i]];
 }
 
 /// y = scaled rows of (local_, q_); ofPressure: see FlowOperator::fluidRows. The halo of local_ is updated here.
@@ -139,7 +174,7 @@ void ScaledFlowSystem::solvePressure(const double* r)
     pressure_.apply(pressureRows_.data(), pressureLocal_.data());
     for (int i = 0; i < mesh_.nOwned; ++i)
         pressureLocal_[i] = isFreePressure(s, i) ? pressureLocal_[i] + pressureRows_[i]*viscousPressure_[i] : 0;
-    removeMean(pressureLocal_);
+    removeMeans(pressureLocal_);
     halo_.update(pressureLocal_.data(), 1);
 }
 
@@ -147,9 +182,7 @@ void ScaledFlowSystem::solvePressure(const double* r)
 void ScaledFlowSystem::preconditionUnscaled(const double* r)
 {
     const FlowOperator op = product();
-    velocity_.solve(r, scale_.data(), local_.data());
-    op.project(local_.data());
-    velocity_.relaxLightNodes(r, scale_.data(), local_.data());
+    solveVelocity(r);
     halo_.update(local_.data(), B_);
     if (!solids_.isEmpty())
     {
@@ -158,7 +191,7 @@ void ScaledFlowSystem::preconditionUnscaled(const double* r)
     }
     solvePressure(r);
     op.gradient(pressureLocal_.data(), gradient_.data());
-    velocity_.subtractDiagonal(gradient_.data(), local_.data());
+    subtractFromVelocity(gradient_.data());
     for (int i = 0; i < mesh_.nOwned; ++i) local_[std::size_t(i)*B_ + B_ - 1] = pressureLocal_[i];
     op.project(local_.data());
     if (solids_.isEmpty()) return;
@@ -204,7 +237,7 @@ double ScaledFlowSystem::residual(const std::vector<double>& x, const std::vecto
     double square = 0;
     for (std::size_t i = 0; i < n; ++i) square += r[i]*scale_[i]*r[i]*scale_[i];
     op.project(rows);
-    balanceContinuity(rows);
+    unbalancedVolume_ = balanceContinuity(rows);
     for (std::size_t i = 0; i < n; ++i) r[i] = rows[i]*scale_[i];
     if (!solids_.isEmpty())
     {

@@ -7,6 +7,7 @@
 #include "algebra/pressureHierarchy.hpp"
 #include "algebra/solidUnknowns.hpp"
 #include "algebra/velocityBlock.hpp"
+#include "algebra/viscousBlock.hpp"
 
 namespace flotsam
 {
@@ -28,6 +29,8 @@ public:
 
     /// Scaled residual r of (x: nNodes*(dim+1) with its halo up to date, q: nDof per solid); returns the norm of the scaled right-hand side.
     double residual(const std::vector<double>& x, const std::vector<double>& q, double* r);
+    /// Of the last residual(): volume that surfaces sweep in basins without a prescribed pressure beyond what these can give [m^dim/s].
+    double unbalancedVolume() const { return unbalancedVolume_; }
     /// Norm of the scaled forces that change the motion of x: its residual r and the pressure's rows. The right-hand side is mostly inertia over the time step.
     double forceNorm(const std::vector<double>& x, const double* r);
     /// Adds a scaled solution to x and q; the halo of x is updated.
@@ -39,13 +42,16 @@ public:
 
 private:
     template<int D> void setDiagonals();
-    void updatePressure();
+    void updateHierarchies();
+    void updateViscousBlock();
+    void solveVelocity(const double* r);
+    void subtractFromVelocity(const double* gradient);
     void solvePressure(const double* r);
     void addPressureSources(double* r) const;
     void preconditionUnscaled(const double* r);
     void finishProduct(const FlowOperator& op, double* y, const double* ofPressure);
-    void balanceContinuity(double* y) const;
-    void removeMean(std::vector<double>& p) const;
+    double balanceContinuity(double* y) const;
+    void removeMeans(std::vector<double>& p) const;
     FlowOperator product() const { return {graph_, halo_, *system_, mesh_.nOwned}; }
 
     const SimplexMesh& mesh_;
@@ -54,10 +60,11 @@ private:
     const int B_;
     const FlowSystem* system_ = nullptr;
     VelocityBlock velocity_;
+    std::unique_ptr<ViscousBlock> viscous_; // instead of velocity_ where viscosity rules; null: nowhere
     PressureHierarchy pressure_;
     SolidUnknowns solids_;
 
-    double fluidVolume_ = 0;                // of all active nodes; only without a pressure level
+    double unbalancedVolume_ = 0;
     std::vector<double> scale_;             // nOwned*B: 1/sqrt(diagonal)
     std::vector<float> viscousPressure_;    // nOwned: inverse of the viscous part of the Schur complement, lumped; only preconditions
     std::vector<double> local_;             // work: nNodes*B, unscaled

@@ -67,49 +67,11 @@ void FlowEquation::buildConstraints()
     isPatchPressureFixed_ = system_.isPressureFixed;
 }
 
-/// By patches, at the edge of gas that is left out, in shut pockets: these have no part in the level of the rest.
+/// By patches, at the edge of gas that is left out, in shut pockets.
 void FlowEquation::fixPressures()
 {
-    bool any = false;
     for (int i = 0; i < mesh_.nNodes; ++i)
-    {
-        const bool isLevel = isPatchPressureFixed_[i] || (step_.gas && step_.gas->isEdge()[i]);
-        system_.isPressureFixed[i] = isLevel || (step_.pockets && step_.pockets->isNode(i));
-        any = any || (i < mesh_.nOwned && isLevel);
-    }
-    system_.hasPressureLevel = halo_.any(any);
-}
-
-/// The gas of a tank has the level, whatever strikes the water; by volume where there is next to no gas. Of a body that lies flush with a wall only a part is in the
-/// mesh: the level acts on it.
-void FlowEquation::weighPressureLevel()
-{
-    constexpr double leastGas = 1e-3; // of the volume
-    std::vector<double>& weight = system_.levelWeight;
-    weight.clear();
-    if (system_.hasPressureLevel) return;
-    double sums[2] = {}; // all, gas
-    const auto volume = [&](int i) { return system_.isActive[i] && !system_.isPressureFixed[i] ? system_.dualVolume[i] : 0; };
-    const auto gasShare = [&](int i) { return fluid_.isTwoPhase ? 1 - std::clamp(step_.state->alpha[i], 0.0, 1.0) : 0; };
-    for (int i = 0; i < mesh_.nOwned; ++i)
-    {
-        sums[0] += volume(i);
-        sums[1] += volume(i)*gasShare(i);
-    }
-    halo_.sum(sums, 2);
-    const bool byGas = sums[1] > leastGas*sums[0];
-    weight.resize(mesh_.nOwned);
-    for (int i = 0; i < mesh_.nOwned; ++i) weight[i] = volume(i)*(byGas ? gasShare(i)/sums[1] : 1/sums[0]);
-}
-
-void FlowEquation::setPressureLevel(std::vector<double>& x) const
-{
-    if (system_.hasPressureLevel) return;
-    const int dim = mesh_.dim, B = dim + 1;
-    double level = 0;
-    for (int i = 0; i < mesh_.nOwned; ++i) level += system_.levelWeight[i]*x[std::size_t(i)*B + dim];
-    level = halo_.sum(level);
-    for (int i = 0; i < mesh_.nNodes; ++i) x[std::size_t(i)*B + dim] += fluid_.pRefValue - level;
+        system_.isPressureFixed[i] = isPatchPressureFixed_[i] || (step_.gas && step_.gas->isEdge()[i]) || (step_.pockets && step_.pockets->isNode(i));
 }
 
 void FlowEquation::applyConstraints(const std::vector<PatchValues>& values, std::vector<double>& x) const

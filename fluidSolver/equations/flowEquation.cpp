@@ -90,7 +90,7 @@ void FlowEquation::assemble(const FlowStepData& step)
         removeMassDefect<3>();
         assembleGhosts<3>();
     }
-    weighPressureLevel();
+    findPressureLevels();
 }
 
 /// Zeroes row i of the matrix unless that has been done. Just before its first use: the row then comes into the cache once instead of twice.
@@ -113,11 +113,17 @@ void FlowEquation::assembleElements()
     mass_.assign(mesh_.nOwned, 0.0);
     swept_.assign(mesh_.nOwned, 0.0);
     std::vector<char> isStarted(mesh_.nOwned, 0);
+    double viscous[2] = {}; // elements; sum of their mu dt/(rho h^2)
     for (int e = 0; e < mesh_.nInnerElements; ++e)
     {
         if (!loadElement<D>(e, data)) continue;
         const int* nodes = &mesh_.elements[std::size_t(e)*N];
         const ElementHistory<D> history(data);
+        if (mesh_.isOwnedElement[e])
+        {
+            viscous[0] += 1;
+            viscous[1] += data.mu*step_.time.dt/(data.rho*mesh_.h[e]*mesh_.h[e]);
+        }
         const double pressureMass = 1/(data.mu + data.tauCont);
         for (int a = 0; a < N; ++a)
         {
@@ -137,6 +143,8 @@ void FlowEquation::assembleElements()
         addElement(data, slot, system_);
     }
     for (int i = 0; i < mesh_.nOwned; ++i) startRow(i, isStarted);
+    halo_.sum(viscous, 2);
+    system_.viscousNumber = viscous[0] > 0 ? viscous[1]/viscous[0] : 0;
 }
 
 /// Takes from the rows of the nodes around varying densities what inertia and convection leave of a uniform velocity: the rest of

@@ -39,7 +39,7 @@ public:
     /// constant load ends at the solved velocity. bodies: one per solid of kind Free, in the order of the solids.
     void setFreeBodies(const std::vector<FreeBody>& bodies, double dt);
 
-    /// Without a prescribed pressure: shifts those of x to the level of FluidProperties::pRefValue. Collective.
+    /// Basins without a prescribed pressure: shifts those of x to the level of FluidProperties::pRefValue. Collective.
     void setPressureLevel(std::vector<double>& x) const;
 
     /// Writes prescribed velocities and pressures into x (nNodes*(dim+1)).
@@ -75,7 +75,10 @@ private:
     template<int D> void assembleGasEdge();
     void fixGasEdge();
     void fixPressures();
-    void weighPressureLevel();
+    void findPressureLevels();
+    std::vector<double> levelVolumes(const std::vector<int>& level) const;
+    void joinByBodies(const std::vector<char>& hasGas, std::vector<int>& level) const;
+    double gasShare(int i) const { return fluid_.isTwoPhase ? 1 - std::clamp(step_.state->alpha[i], 0.0, 1.0) : 0; }
     void applyGasEdge(std::vector<double>& x) const;
     double gasPressure(int i) const;
     template<int D> void fineScaleT(const std::vector<double>&, std::vector<double>&) const;

@@ -23,19 +23,22 @@ double FlowEquation::gasPressure(int i) const
     return p;
 }
 
-/// Level of the pressures at the edge of the gas that is computed: those of gas at rest under the boundaries with a given pressure. Of these the
-/// lowest counts: water may reach some.
+/// Level of the pressures at the edge of the gas that is computed: those of gas at rest under the boundaries with a given pressure. Of these nodes that hold
+/// the least liquid count (a given p_rgh means another p where water has reached the boundary), then the lowest.
 void FlowEquation::fixGasEdge()
 {
     if (!step_.gas) return;
     gasLevel_ = 0;
-    double level = noLevel;
-    for (std::size_t p = 0; p < patches_.size(); ++p)
+    const auto forNodes = [&](const auto& visit)
     {
-        if (patches_[p].pressure == BoundaryPatch::Pressure::Natural) continue;
-        for (std::size_t k = 0; k < patches_[p].nodes.size(); ++k)
-            level = std::min(level, (*step_.patchValues)[p].pressure[k] - gasPressure(patches_[p].nodes[k]));
-    }
+        for (std::size_t p = 0; p < patches_.size(); ++p)
+            for (std::size_t k = 0; patches_[p].pressure != BoundaryPatch::Pressure::Natural && k < patches_[p].nodes.size(); ++k)
+                visit(patches_[p].nodes[k], (*step_.patchValues)[p].pressure[k]);
+    };
+    double leastLiquid = 1, level = noLevel;
+    forNodes([&](int i, double) { leastLiquid = std::min(leastLiquid, step_.state->alpha[i]); });
+    leastLiquid = halo_.min(leastLiquid);
+    forNodes([&](int i, double pressure) { if (step_.state->alpha[i] <= leastLiquid) level = std::min(level, pressure - gasPressure(i)); });
     level = halo_.min(level);
     gasLevel_ = level < noLevel ? level : 0;
 }

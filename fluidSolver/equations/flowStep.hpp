@@ -12,6 +12,7 @@
 namespace flotsam
 {
 
+class Basins;
 class GasRegion;
 class MassFluxes;
 class ShutPockets;
@@ -23,6 +24,7 @@ struct FlowStepData
     const FlowState* state = nullptr;           ///< t^n, t^(n-1); alpha already at t^(n+1)
     const Cover* cover = nullptr;               ///< null: no solids
     const GasRegion* gas = nullptr;             ///< null: no gas is left out
+    const Basins* basins = nullptr;             ///< of the cover
     const ShutPockets* pockets = nullptr;       ///< null: no solids
     const std::vector<Solid>* solids = nullptr; ///< pose and motion at t^(n+1); free: predicted
     const std::vector<PatchValues>* patchValues = nullptr; ///< at t^(n+1)

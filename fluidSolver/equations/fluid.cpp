@@ -18,7 +18,7 @@ Fluid::Fluid(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& f
     const std::vector<BoundaryPatch>& patches)
 :   mesh_(mesh), halo_(halo), graph_(mesh), fluid_(fluid), controls_(controls), patches_(patches), values_(patches.size()),
     equation_(mesh, graph_, halo, fluid_, controls_, patches_), solver_(mesh, graph_, halo, controls_),
-    transport_(mesh, graph_, halo, controls_), massFluxes_(mesh, fluid_, controls_), pockets_(mesh, graph_, halo)
+    transport_(mesh, graph_, halo, controls_), massFluxes_(mesh, fluid_, controls_), basins_(mesh, halo), pockets_(mesh, graph_, halo)
 {
     if (controls_.gasDepth > 0 && fluid_.isTwoPhase) gas_ = std::make_unique<GasRegion>(mesh, halo, controls_.gasDepth);
     if (!controls_.dualCellTransport) supg_ = std::make_unique<PhaseFieldSupg>(mesh, graph_, halo, controls_);
@@ -50,6 +50,7 @@ void Fluid::setGeometry(const Cover* cover, const std::vector<Solid>* solids, bo
 {
     cover_ = cover;
     solids_ = solids;
+    areBasinsOld_ = true;
     if (cover && hasChanged && fluid_.isTwoPhase) extendPhase();
 }
 
@@ -175,11 +176,19 @@ void Fluid::setGravity(const Cover* cover)
 }
 
 /// cover: of what is computed.
-void Fluid::findPockets(const Cover& cover)
+void Fluid::findBasins(const Cover* cover)
 {
+    if (!areBasinsOld_ && !gas_) return;
+    areBasinsOld_ = false;
+    basins_.find(cover);
+    if (!cover_) return;
     std::vector<char> isFixed = equation_.isPatchPressureFixed();
     for (int i = 0; gas_ && i < mesh_.nNodes; ++i) isFixed[i] |= gas_->isEdge()[i];
-    pockets_.find(cover, isFixed);
+    pockets_.find(*cover, basins_, isFixed);
+}
+
+void Fluid::setPocketPressures()
+{
     std::vector<double> rho(mesh_.nNodes);
     for (int i = 0; i < mesh_.nNodes; ++i) rho[i] = density(fluid_, controls_, fluid_.isTwoPhase ? state_.alpha[i] : 1);
     std::array<double, 3> gravity{};
@@ -196,12 +205,14 @@ void Fluid::assemble()
         cover = &gas_->cover(cover_);
     }
     setGravity(cover);
-    if (cover_) findPockets(*cover);
+    findBasins(cover);
+    if (cover_) setPocketPressures();
     FlowStepData step;
     step.time = time_;
     step.state = &state_;
     step.cover = cover;
     step.gas = gas_.get();
+    step.basins = &basins_;
     step.pockets = cover_ ? &pockets_ : nullptr;
     step.solids = solids_;
     step.patchValues = &values_;
@@ -239,7 +250,6 @@ SolveReport Fluid::solve(const std::vector<FreeBody>& bodies)
     equation_.setFreeBodies(bodies, time_.dt);
     solver_.setSystem(equation_.system());
     const SolveReport report = solver_.solve(x_, q_);
-    if (!solids_ || solids_->empty()) equation_.setPressureLevel(x_);
     equation_.system().isNewMatrix = false;
     return report;
 }

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "algebra/flowLinearSolver.hpp"
+#include "equations/basins.hpp"
 #include "equations/dualCellTransport.hpp"
 #include "equations/flowEquation.hpp"
 #include "equations/flowMeasures.hpp"
@@ -69,6 +70,8 @@ public:
     /// Liquid volume int alpha over the fluid part [m^3]. Collective.
     double liquidVolume() const { return flotsam::liquidVolume(mesh_, halo_, cover_, state_.alpha); }
 
+    double timeStep() const { return time_.dt; }    ///< of the step that beginStep() began [s]
+
     const FlowState& state() const { return state_; }
     FlowState& state() { return state_; }
     const SimplexMesh& mesh() const { return mesh_; }
@@ -96,7 +99,8 @@ private:
     void extendPhase();
     void findSurface();
     void setGravity(const Cover* cover);
-    void findPockets(const Cover& cover);
+    void findBasins(const Cover* cover);
+    void setPocketPressures();
     void setFirstGuess();
     TransportReport advancePhase(double dt);
     double levelTolerance() const;
@@ -125,6 +129,8 @@ private:
     Cover start_, during_;              // while solids move: geometry of t, mean over the step
     bool isMoved_ = false;              // start_ holds
     std::unique_ptr<GasRegion> gas_;    // when gas far from the water is left out
+    Basins basins_;
+    bool areBasinsOld_ = true;          // the geometry has changed since they were found
     ShutPockets pockets_;
     const std::vector<Solid>* solids_ = nullptr;
     TimeScheme time_;

@@ -8,48 +8,25 @@
 namespace flotsam
 {
 
-/// From reached nodes over the elements `open_` of this rank, as far as it goes. True when any node was new.
-bool ShutPockets::spread()
+void ShutPockets::find(const Cover& cover, const Basins& basins, const std::vector<char>& isPressureFixed)
 {
     const int n = mesh_.dim + 1;
-    bool isNew = false;
-    for (bool isMoving = true; isMoving; )
-    {
-        isMoving = false;
-        for (int e : open_)
-        {
-            const int* nodes = &mesh_.elements[std::size_t(e)*n];
-            const int count = int(std::count_if(nodes, nodes + n, [&](int i) { return isReached_[i] != 0; }));
-            if (count == 0 || count == n) continue;
-            for (int a = 0; a < n; ++a) isReached_[nodes[a]] = 1;
-            isMoving = isNew = true;
-        }
-    }
-    return isNew;
-}
-
-void ShutPockets::find(const Cover& cover, const std::vector<char>& isPressureFixed)
-{
-    const int n = mesh_.dim + 1;
-    isReached_.assign(mesh_.nNodes, 1);
+    std::vector<char> isOpen(mesh_.nNodes, 1); // whole elements all around, or a pressure from a boundary
     for (int e = 0; e < mesh_.nElements; ++e)
-        for (int a = 0; a < n && cover.state[e] != ElementState::Fluid; ++a) isReached_[mesh_.elements[std::size_t(e)*n + a]] = 0;
+        for (int a = 0; a < n && cover.state[e] != ElementState::Fluid; ++a) isOpen[mesh_.elements[std::size_t(e)*n + a]] = 0;
+    for (int i = 0; i < mesh_.nNodes; ++i) isOpen[i] |= isPressureFixed[i];
+    const std::vector<char> isOutside = basins.haveAny(isOpen);
+    isIn_.clear();
+    const auto nOutside = std::count(isOutside.begin(), isOutside.end(), 1);
+    if (nOutside == 0 || nOutside == basins.count()) return;
+    isIn_.resize(mesh_.nNodes);
+    isOutside_.resize(mesh_.nNodes);
     for (int i = 0; i < mesh_.nNodes; ++i)
-        if (cover.isActiveNode[i] && isPressureFixed[i]) isReached_[i] = 1;
-    halo_.update(isReached_, 1);
-    open_.clear();
-    for (int e = 0; e < mesh_.nElements; ++e)
     {
-        const int* nodes = &mesh_.elements[std::size_t(e)*n];
-        if (cover.state[e] != ElementState::Solid && std::any_of(nodes, nodes + n, [&](int i) { return !isReached_[i]; })) open_.push_back(e);
+        const int b = basins.of(i);
+        isIn_[i] = b >= 0 && !isOutside[b];
+        isOutside_[i] = b >= 0 && isOutside[b];
     }
-    const bool hasOutside = halo_.any(std::find(isReached_.begin(), isReached_.end(), 1) != isReached_.end());
-    while (halo_.any(spread())) halo_.update(isReached_, 1);
-    isIn_.assign(mesh_.nNodes, 0);
-    isOutside_.assign(mesh_.nNodes, 0);
-    for (int i = 0; i < mesh_.nNodes; ++i) (isReached_[i] ? isOutside_ : isIn_)[i] = cover.isActiveNode[i];
-    const bool any = std::find(isIn_.begin(), isIn_.begin() + mesh_.nOwned, 1) != isIn_.begin() + mesh_.nOwned;
-    if (!halo_.any(any) || !hasOutside) isIn_.clear();
 }
 
 void ShutPockets::setPressures(const std::vector<double>& p, const std::vector<double>& rho, const std::array<double, 3>& gravity)

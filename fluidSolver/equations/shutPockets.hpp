@@ -6,8 +6,7 @@
 /// beside structures alone there is no solution, beside bodies none that iterations find. So pockets are open to the pressure of the fluid around.
 #pragma once
 
-#include "algebra/halo.hpp"
-#include "geometry/cover.hpp"
+#include "equations/basins.hpp"
 
 #include <array>
 
@@ -19,8 +18,8 @@ class ShutPockets
 public:
     ShutPockets(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo) : mesh_(mesh), graph_(graph), halo_(halo) {}
 
-    /// Finds them. isPressureFixed (nNodes): by a boundary. Collective.
-    void find(const Cover& cover, const std::vector<char>& isPressureFixed);
+    /// Finds them among the basins of the cover. isPressureFixed (nNodes): by a boundary. Collective.
+    void find(const Cover& cover, const Basins& basins, const std::vector<char>& isPressureFixed);
 
     /// Their pressures: p (nNodes) of the fluid nearest around, through the solids, with the weight of the density rho (nNodes) from there. gravity: in
     /// the mesh's axes. After find(). Collective.
@@ -30,15 +29,11 @@ public:
     double pressure(int i) const { return pressure_[i]; }               ///< [Pa]
 
 private:
-    bool spread();
-
     const SimplexMesh& mesh_;
     const NodeGraph& graph_;
     const Halo& halo_;
     std::vector<char> isIn_;            // nNodes; empty: no pockets on any rank
     std::vector<char> isOutside_;       // nNodes: fluid that is none
-    std::vector<int> isReached_;
-    std::vector<int> open_;             // elements with fluid of which not all nodes are reached from the start
     std::vector<double> pressure_;
 };
 

@@ -94,7 +94,7 @@ void printCaseCheck(const CaseControls& controls, const MeshAdapter& adapter, co
     line("time step", timeLine(controls.time));
     for (const auto& patch : boundary) line("patch", describe(patch));
     const bool hasLevel = std::any_of(boundary.begin(), boundary.end(), [](const BoundaryPatch& b) { return b.pressure != BoundaryPatch::Pressure::Natural; });
-    if (!hasLevel) line("pressure level", text("none prescribed: mean in the gas (without gas: of all) pRefValue ", controls.fluid.pRefValue));
+    if (!hasLevel) line("pressure level", text("none prescribed: in every basin mean in the gas (without gas: of all) pRefValue ", controls.fluid.pRefValue));
     if (scene.bodies > 0 && scene.thinnestBody < 3*counts.hMin)
         line("warning", text("the thinnest body (", scene.thinnestBody, " m) spans less than 3 of the smallest elements (", counts.hMin, " m): refine around the bodies"));
     printCost(counts, mesh, scene, cost, halo.size());

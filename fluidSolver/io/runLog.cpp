@@ -15,6 +15,7 @@ namespace
 {
 
 constexpr int linesPerHeading = 25;
+constexpr double negligibleVolume = 1e-9; // of the liquid
 constexpr double paceMemory = 0.05; ///< weight of a new step in the smoothed pace: about the last 20 steps
 
 __attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...)
@@ -249,6 +250,11 @@ std::string RunLog::summary(const RunSummary& s)
     const double scale = std::max({s.mass.initial, s.mass.final, s.mass.inflow});
     text += format("  storage %.8g, error %.3g (%.2g of the liquid)\n", s.mass.storage(), s.mass.error(),
         scale > 0 ? s.mass.error() / scale : 0);
+
+    if (s.unbalancedVolume > negligibleVolume * scale)
+    {
+        text += format("  basins without a given pressure: surfaces swept %.3g m^3 more than these can give; their gas made room\n", s.unbalancedVolume);
+    }
 
     if (!s.structures.empty())
     {

@@ -106,6 +106,7 @@ struct RunSummary
     int ranks = 1;
     std::vector<std::pair<std::string, long long>> anomalies; ///< counted: "clipped alpha", "rejected steps", ...
     MassBalance mass;
+    double unbalancedVolume = 0;                            ///< swept in basins without a prescribed pressure beyond what these can give [m^3]
     std::vector<MemberForces> structures;
     PhaseTimers::Seconds wall{}, cpu{};                     ///< mean or maximum of the ranks, as the caller has reduced them
 };

@@ -77,7 +77,7 @@ void exactForce(const ExactFlow& exact, const FluidProperties& fluid, int dim, c
 ForcedFlow::ForcedFlow(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& fluid, const NumericsControls& controls,
     const ExactFlow& exact, double time)
 :   mesh_(mesh), halo_(halo), graph_(mesh), fluid_(fluid), controls_(controls), exact_(exact), patches_(exactPatches(mesh, exact)),
-    values_(patches_.size()), equation_(mesh, graph_, halo, fluid_, controls_, patches_), solver_(mesh, graph_, halo, controls_),
+    values_(patches_.size()), equation_(mesh, graph_, halo, fluid_, controls_, patches_), solver_(mesh, graph_, halo, controls_), basins_(mesh, halo),
     state_(restState(mesh)), force_(std::size_t(mesh.nElements)*mesh.dim, 0.0), x_(std::size_t(mesh.nNodes)*(mesh.dim + 1), 0.0)
 {
     fluid_.isTwoPhase = false;
@@ -88,12 +88,14 @@ ForcedFlow::ForcedFlow(const SimplexMesh& mesh, const Halo& halo, const FluidPro
         state_.p[i] = exact_.pressure(&mesh.x[std::size_t(i)*mesh.dim], time);
     }
     state_.uOld = state_.u;
+    basins_.find(nullptr);
 }
 
 void ForcedFlow::setGeometry(const Cover& cover, const std::vector<Solid>& solids)
 {
     cover_ = &cover;
     solids_ = &solids;
+    basins_.find(cover_);
 }
 
 /// The force at the centre of the fluid part: its mean up to second order.
@@ -124,6 +126,7 @@ SolveReport ForcedFlow::step(double dt)
     data.time = TimeScheme::bdf(controls_.timeOrder, dt, state_.dt);
     data.state = &state_;
     data.cover = cover_;
+    data.basins = &basins_;
     data.solids = solids_;
     data.patchValues = &values_;
     data.elementForce = &force_;

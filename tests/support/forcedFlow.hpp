@@ -4,6 +4,7 @@
 #pragma once
 
 #include "algebra/flowLinearSolver.hpp"
+#include "equations/basins.hpp"
 #include "equations/flowEquation.hpp"
 
 #include <functional>
@@ -72,6 +73,7 @@ private:
     std::vector<PatchValues> values_;
     FlowEquation equation_;
     FlowLinearSolver solver_;
+    Basins basins_;
     FlowState state_;
     const Cover* cover_ = nullptr;
     const std::vector<Solid>* solids_ = nullptr;

@@ -84,7 +84,7 @@ SystemMatrix systemMatrix(const SimplexMesh& mesh, const NodeGraph& graph, const
 double conditionNumber(const SimplexMesh& mesh, const FlowSystem& system, const SystemMatrix& m)
 {
     const int n = int(m.matrix.rows()), B = mesh.dim + 1;
-    const bool isBordered = !system.hasPressureLevel;
+    const bool isBordered = system.nLevels > 0;
     Eigen::VectorXd constant = Eigen::VectorXd::Zero(n); // the pressure that is one everywhere, scaled
     for (int i = 0; i < mesh.nNodes; ++i)
     {

@@ -139,9 +139,10 @@ TEST_CASE("the summary names phases, anomalies, mass balance and forces")
     s.mass.inflow = 0.5;
     s.mass.outflow = 0.25;
     s.mass.final = 1.25 + 1e-9;
+    s.unbalancedVolume = 0.0321;
     s.structures = {{"pipe1", {1, 2, 3}, {4, 5, 6}, 7, 8, 9}};
     const std::string text = RunLog::summary(s);
     MESSAGE(text);
-    for (const char* part : {"100 steps, 3 repeated", "75.0", "6.0000", "clipped alpha", "1e-09", "pipe1"}) CHECK(contains(text, part));
+    for (const char* part : {"100 steps, 3 repeated", "75.0", "6.0000", "clipped alpha", "1e-09", "0.0321", "pipe1"}) CHECK(contains(text, part));
     CHECK(s.mass.error() == doctest::Approx(1e-9));
 }

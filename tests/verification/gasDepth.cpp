@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Gas far from the water left out: a column of water collapses as it does with all of the gas, and the same on any number of ranks.
 #include "equations/fluid.hpp"
+#include "equations/materials.hpp"
 #include "support/flowCases.hpp"
 
 #include <doctest/doctest.h>
@@ -95,4 +96,34 @@ TEST_CASE("a column of water collapses in the gas around it as in all of the gas
             difference = std::max(difference, std::abs(near.fluid->state().alpha[i] - alone.fluid->state().alpha[near.mesh.originalNode[i]]));
         CHECK(near.halo.max(difference) < 1e-4);
     }
+}
+
+TEST_CASE("water that reaches the top leaves the pressure of the gas alone")
+{
+    usePetsc();
+    const SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, 2, {20, 20, 1}, {0, 0, 0}, {1, 1, 1});
+    const Halo halo(mesh, MPI_COMM_WORLD);
+    FluidProperties properties;
+    properties.gravity[1] = -9.81;
+    NumericsControls controls;
+    controls.gasDepth = 2;
+    std::vector<BoundaryPatch> patches;
+    for (int p : {0, 1, 2}) patches.push_back(makePatch(mesh, p, BoundaryPatch::Velocity::Slip));
+    patches.push_back(makePatch(mesh, 3, BoundaryPatch::Velocity::Open));
+    const auto evaluate = patches[3].evaluate;
+    patches[3].evaluate = [&, nodes = patches[3].nodes](const BoundaryState& state, PatchValues& values)
+    {
+        evaluate(state, values);    // p_rgh 0
+        for (std::size_t k = 0; k < nodes.size(); ++k) values.pressure[k] = -9.81*density(properties, controls, state.alpha[nodes[k]]);
+    };
+    Fluid fluid(mesh, halo, properties, controls, patches);
+    FlowState state = restState(mesh);
+    for (int i = 0; i < mesh.nNodes; ++i) state.alpha[i] = mesh.x[2*std::size_t(i)] < 0.3;
+    fluid.start(state, true);
+    fluid.beginStep(1e-3);
+    fluid.assemble();
+    REQUIRE(fluid.solve({}).hasConverged);
+    fluid.endStep();
+    for (int i = 0; i < mesh.nOwned; ++i)
+        if (mesh.x[2*std::size_t(i)] > 0.9) CHECK(fluid.state().p[i] == doctest::Approx(-9.81*mesh.x[2*std::size_t(i) + 1]).epsilon(1e-6));
 }

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "equations/basins.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace flotsam
+{
+
+int Basins::root(int i)
+{
+    while (basin_[i] != i) i = basin_[i] = basin_[basin_[i]];
+    return i;
+}
+
+void Basins::joinLocally(const Cover* cover)
+{
+    const int n = mesh_.dim + 1;
+    basin_.resize(mesh_.nNodes);
+    std::iota(basin_.begin(), basin_.end(), 0);
+    lowest_.assign(mesh_.nNodes, -1);
+    for (int e = 0; e < mesh_.nElements; ++e)
+    {
+        if (cover && cover->state[e] == ElementState::Solid) continue;
+        const int* nodes = &mesh_.elements[std::size_t(e)*n];
+        const int first = root(nodes[0]);
+        for (int a = 0; a < n; ++a)
+        {
+            lowest_[nodes[a]] = double(mesh_.globalNode[nodes[a]]);
+            basin_[root(nodes[a])] = first;
+        }
+    }
+    for (int i = 0; i < mesh_.nNodes; ++i) basin_[i] = root(i);
+}
+
+/// Every basin has one node with its own lowest number, on the rank that owns it.
+void Basins::number()
+{
+    std::vector<double> own;
+    for (int i = 0; i < mesh_.nOwned; ++i)
+        if (lowest_[i] == double(mesh_.globalNode[i])) own.push_back(lowest_[i]);
+    std::vector<int> counts(halo_.size()), starts(halo_.size(), 0);
+    const int mine = int(own.size());
+    MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, halo_.comm());
+    std::partial_sum(counts.begin(), counts.end() - 1, starts.begin() + 1);
+    count_ = starts.back() + counts.back();
+    std::vector<double> all(count_);
+    MPI_Allgatherv(own.data(), mine, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, halo_.comm());
+    for (int i = 0; i < mesh_.nNodes; ++i) // global numbers ascend with the ranks
+        basin_[i] = lowest_[i] < 0 ? -1 : int(std::lower_bound(all.begin(), all.end(), lowest_[i]) - all.begin());
+}
+
+void Basins::find(const Cover* cover)
+{
+    joinLocally(cover);
+    std::vector<double> least(mesh_.nNodes);
+    for (bool isMoving = true; halo_.any(isMoving); )
+    {
+        halo_.update(lowest_, 1); // a second-ring copy may not see the element that makes it fluid
+        std::fill(least.begin(), least.end(), double(mesh_.nGlobal));
+        for (int i = 0; i < mesh_.nNodes; ++i)
+            if (lowest_[i] >= 0) least[basin_[i]] = std::min(least[basin_[i]], lowest_[i]);
+        isMoving = false;
+        for (int i = 0; i < mesh_.nNodes; ++i)
+        {
+            if (lowest_[i] < 0 || lowest_[i] == least[basin_[i]]) continue;
+            lowest_[i] = least[basin_[i]];
+            isMoving = true;
+        }
+    }
+    number();
+}
+
+std::vector<char> Basins::haveAny(const std::vector<char>& isNode) const
+{
+    std::vector<double> sum(count_, 0.0);
+    for (int i = 0; i < mesh_.nOwned; ++i)
+        if (basin_[i] >= 0 && isNode[i]) sum[basin_[i]] = 1;
+    halo_.sum(sum.data(), count_);
+    std::vector<char> any(count_);
+    std::transform(sum.begin(), sum.end(), any.begin(), [](double s) { return s > 0; });
+    return any;
+}
+
+} // namespace flotsam
