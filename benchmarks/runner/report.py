@@ -104,7 +104,7 @@ def write(case, rows, results):
     targets = _targets(case, rows)
     if targets:
         parts += ["## Targets", targets]
-    last = rows[-1]
+    last = next((row for row in reversed(rows) if row["compiler"]), rows[-1])
     parts += [f"![error against CPU seconds]({case.name}.png)", f"Machine: {last['machine']}; flotsamFoam compiled by {last['compiler']}. "
               f"`<`: our cheapest run is better already; `>`: none of our runs is as good, time of the dearest. Regenerate: `benchmarks/run {case.name}`."]
     with open(os.path.join(results, case.name + ".md"), "w", encoding="utf-8") as out:
