@@ -7,6 +7,9 @@ import numpy as np
 from . import table
 
 OURS = ("flotsamFoam", "transportTable")
+COLOURS = {"flotsamFoam": "tab:blue", "transportTable": "tab:blue", "interFoam": "tab:orange", "interIsoFoam": "tab:green", "simpleFoam": "tab:red",
+           "icoFoam": "tab:purple"}
+MARKERS = "osD^v"
 
 
 def label(row):
@@ -101,12 +104,37 @@ def write(case, rows, results):
     targets = _targets(case, rows)
     if targets:
         parts += ["## Targets", targets]
-    last = rows[-1]
+    last = next((row for row in reversed(rows) if row["compiler"]), rows[-1])
     parts += [f"![error against CPU seconds]({case.name}.png)", f"Machine: {last['machine']}; flotsamFoam compiled by {last['compiler']}. "
               f"`<`: our cheapest run is better already; `>`: none of our runs is as good, time of the dearest. Regenerate: `benchmarks/run {case.name}`."]
     with open(os.path.join(results, case.name + ".md"), "w", encoding="utf-8") as out:
         out.write("\n\n".join(parts) + "\n")
     _plot(case, rows, results)
+
+
+def _look(names, solverOf):
+    """{name: plot options}: a solver has one colour in all pictures, its variants other markers and paler tones."""
+    import matplotlib.colors
+    seen, looks = {}, {}
+    for name in names:
+        solver = solverOf[name]
+        k = seen[solver] = seen.get(solver, -1) + 1
+        colour = np.array(matplotlib.colors.to_rgb(COLOURS.get(solver, "black")))
+        pale = min(0.3 * k, 0.6)
+        isOur = solver in OURS
+        looks[name] = {"color": tuple((1 - pale) * colour + pale), "marker": MARKERS[k % len(MARKERS)], "linestyle": "-" if isOur else "--",
+                       "linewidth": 2.2 if isOur else 1.2, "label": name.replace("transportTable", "flotsamFoam's transport").strip()}
+    return looks
+
+
+def _setScale(axis):
+    """Logarithmic, with enough numbers to read a value: 1, 2, 5 of each decade unless there are many."""
+    from matplotlib import ticker
+    for one, (low, high) in ((axis.xaxis, axis.get_xlim()), (axis.yaxis, axis.get_ylim())):
+        decades = np.log10(high / low)
+        one.set_major_locator(ticker.LogLocator(subs=(1, 2, 5) if decades < 3.5 else (1,), numticks=20))
+        one.set_major_formatter(ticker.FuncFormatter(lambda value, _: f"{value:g}"))
+        one.set_minor_formatter(ticker.NullFormatter())
 
 
 def _plot(case, rows, results):
@@ -117,23 +145,23 @@ def _plot(case, rows, results):
     columns = [c for c in [case.mainError, *getattr(case, "moreErrors", [])] if _curves(rows, c)]
     if not columns:
         return
-    ours = {label(r) for r in rows if isOurs(r)}
-    names = list(dict.fromkeys(label(r) for r in rows))
-    colours = {name: f"C{i % 10}" for i, name in enumerate(names)}
-    figure, axes = plt.subplots(1, len(columns), figsize=(5.6 * len(columns), 4.4), dpi=130, squeeze=False)
+    solverOf = {label(r): r["solver"] for r in rows}
+    figure, axes = plt.subplots(1, len(columns), figsize=(5.6 * len(columns), 5.2), dpi=130, squeeze=False)
     for axis, column in zip(axes[0], columns):
-        for name, points in _curves(rows, column).items():
+        curves = _curves(rows, column)
+        looks = _look(curves, solverOf)
+        for name, points in curves.items():
             cpu, error, n = zip(*points)
-            axis.loglog(cpu, np.maximum(error, 1e-16), "o-" if name in ours else "s--", color=colours[name], label=name,
-                        linewidth=2.2 if name in ours else 1.2)
+            axis.loglog(cpu, np.maximum(error, 1e-16), **looks[name])
             for x, y, size in points:
-                axis.annotate(str(size), (x, max(y, 1e-16)), textcoords="offset points", xytext=(4, 4), fontsize=7)
+                axis.annotate(str(size), (x, max(y, 1e-16)), textcoords="offset points", xytext=(4, 4), fontsize=7, color=looks[name]["color"])
+        _setScale(axis)
         what, unit = case.figures[column]
-        axis.set_xlabel("CPU seconds of the solver")
+        axis.set_xlabel("CPU seconds of the solver (numbers at the points: N)")
         axis.set_ylabel(what + (f" [{unit}]" if unit else ""))
         axis.grid(True, which="both", alpha=0.25)
-        axis.legend(fontsize=7)
-    figure.suptitle(case.name, fontsize=11)
+        axis.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncol=3, frameon=False)     # below: it hides no point
+    figure.suptitle(f"{case.name}: error against run time, lower left is better", fontsize=11)
     figure.tight_layout()
     figure.savefig(os.path.join(results, case.name + ".png"))
     plt.close(figure)

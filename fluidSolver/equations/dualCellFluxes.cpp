@@ -62,7 +62,8 @@ struct FaceGeometry
 template<int dim>
 double filmSweptMean(const NodeProfile& film, const double* offset, const double* velocity, double dt)
 {
-    const double across = film.steepness*dot<dim>(film.normal, offset), sweptAcross = film.steepness*dt*dot<dim>(film.normal, velocity);
+    double direction[dim];
+    const double across = film.steepness*bentDistance<dim>(film, offset, direction), sweptAcross = film.steepness*dt*dot<dim>(direction, velocity);
     const double wedge = film.steepness*dot<dim>(film.taper, offset), sweptWedge = film.steepness*dt*dot<dim>(film.taper, velocity);
     const double upper = sweptMean(film.value + wedge - across, sweptWedge - sweptAcross);
     const double lower = sweptMean(film.otherValue + wedge + across, sweptWedge + sweptAcross);
@@ -132,8 +133,9 @@ void DualCellTransport::addFaceValues(const Arguments& in)
             double psi, swept;
             if (profile.kind == NodeProfile::Kind::Front)
             {
-                psi = profile.value + profile.steepness*dot<dim>(profile.normal, offset);
-                swept = profile.steepness*dt*dot<dim>(profile.normal, velocity);
+                double direction[dim];
+                psi = profile.value + profile.steepness*bentDistance<dim>(profile, offset, direction);
+                swept = profile.steepness*dt*dot<dim>(direction, velocity);
             }
             else
             {

@@ -148,4 +148,14 @@ double DualCells::halfWidth(int i, const double* n) const
         + 2*(n[0]*n[1]*m[3] + n[0]*n[2]*m[4] + n[1]*n[2]*m[5])));
 }
 
+double DualCells::meanBend(int i, const double* K) const
+{
+    const double* m = &second_[std::size_t(i)*(dim_ == 2 ? 3 : 6)];
+    if (dim_ == 2)
+    {
+        return 0.5*(K[0]*m[0] + K[1]*m[1]) + K[2]*m[2];
+    }
+    return 0.5*(K[0]*m[0] + K[1]*m[1] + K[2]*m[2]) + K[3]*m[3] + K[4]*m[4] + K[5]*m[5];
+}
+
 } // namespace flotsam

@@ -59,6 +59,9 @@ public:
     /// Half the thickness of the slab normal to the unit vector n with the cell's second moment [m].
     double halfWidth(int i, const double* n) const;
 
+    /// Mean over the cell of x.K x/2, x from its centroid; K symmetric: xx yy xy, in 3D xx yy zz xy xz yz.
+    double meanBend(int i, const double* K) const;
+
 private:
     int dim_;
     std::vector<double> volume_, centroid_;

@@ -18,20 +18,19 @@ constexpr int trialIterations = 4;
 constexpr double hopeless = 5;
 /// Against its neighbours the fitted cell counts this much.
 constexpr double ownWeight = 4;
-/// Curvature and taper that the means leave undetermined are zero. A fit that has not been found when the steps are over makes no film: it would
-/// be another one with every change of the last digits.
-constexpr double firstDamping = 1e-3, ridge = 1e-3;
+/// A fit that has not been found when the steps are over makes no film: it would be another one with every change of the last digits.
+constexpr double firstDamping = 1e-3;
 /// Longest step of an unknown, and the thinnest film.
 constexpr double longestStep = 0.5, thinnest = 0.01;
-/// What one cell resolves: more is not a film, but a corner or an end.
-constexpr double largestCurvature = 0.25, largestTaper = 0.5;
+/// What one cell resolves.
+constexpr double largestTaper = 0.5;
 
-/// Unknowns: middle, tilt, curvature, thickness, taper.
+/// Unknowns: those of the middle, thickness, taper.
 template<int dim>
-struct Layout
+struct Layout : SurfaceShape<dim>
 {
-    static constexpr int tangents = dim - 1, tilt = 1, curvature = 1 + tangents, thickness = curvature + tangents*dim/2,
-        taper = thickness + 1, size = taper + tangents;
+    using S = SurfaceShape<dim>;
+    static constexpr int thickness = S::size, taper = thickness + 1, size = taper + S::tangents;
 };
 
 /// Derivatives of the middle and of the thickness by their unknowns.
@@ -39,48 +38,15 @@ template<int dim>
 void shapeFunctions(const double* along, double* shape)
 {
     using L = Layout<dim>;
-    shape[0] = shape[L::thickness] = 1;
-    int k = L::curvature;
-    for (int d = 0; d < L::tangents; ++d)
-    {
-        shape[L::tilt + d] = shape[L::taper + d] = along[d];
-        for (int c = d; c < L::tangents; ++c)
-        {
-            shape[k++] = along[d]*along[c]*(c == d ? 0.5 : 1);
-        }
-    }
-}
-
-/// Elimination without pivots, upper triangle only: the matrix is symmetric and positive definite.
-template<int n>
-void solve(double (&a)[n][n], double (&b)[n])
-{
-    for (int k = 0; k < n; ++k)
-    {
-        for (int r = k + 1; r < n; ++r)
-        {
-            const double factor = a[k][r]/a[k][k];
-            for (int c = r; c < n; ++c)
-            {
-                a[r][c] -= factor*a[k][c];
-            }
-            b[r] -= factor*b[k];
-        }
-    }
-    for (int k = n - 1; k >= 0; --k)
-    {
-        for (int c = k + 1; c < n; ++c)
-        {
-            b[k] -= a[k][c]*b[c];
-        }
-        b[k] /= a[k][k];
-    }
+    SurfaceShape<dim>::derivatives(along, shape);
+    shape[L::thickness] = 1;
+    std::copy_n(along, L::tangents, shape + L::taper);
 }
 
 /// Mean of a film over a cell and its derivatives by middle and thickness (in units of 1/steepness).
 struct FilmMean { double value, byMiddle, byThickness; };
 
-FilmMean filmMean(const FilmSample& cell, double fromMiddle, double thickness, double steepness)
+FilmMean filmMean(const SurfaceSample& cell, double fromMiddle, double thickness, double steepness)
 {
     const auto front = [&](double distance) { return std::exp(std::clamp(steepness*(0.5*thickness + distance), -150., 150.)); };
     const double upper = front(-fromMiddle), lower = front(fromMiddle), inverse = 1/cell.growth;
@@ -102,7 +68,7 @@ double slopeLength(const double* tilt)
 
 /// A plane film of uniform thickness with the first moment of the samples.
 template<int dim>
-void startFilm(const FilmSample* samples, int nSamples, double* unknown)
+void startFilm(const SurfaceSample* samples, int nSamples, double* unknown)
 {
     double liquid = 0, moment = 0, sum = 0, squares = 0;
     for (int k = 0; k < nSamples; ++k)
@@ -126,7 +92,7 @@ struct NormalEquations
     double cost = 0;        // what is minimised
     double residual = 0;    // sum of squared differences of the other cells
 
-    NormalEquations(const FilmSample* samples, int nSamples, double steepness, const double* unknown)
+    NormalEquations(const SurfaceSample* samples, int nSamples, double steepness, const double* unknown)
     {
         const double scale = steepness/slopeLength<dim>(&unknown[L::tilt]);
         for (int k = 0; k < nSamples; ++k)
@@ -140,14 +106,14 @@ struct NormalEquations
             {
                 continue;
             }
-            matrix[i][i] += ridge;
-            right[i] -= ridge*unknown[i];
-            cost += ridge*unknown[i]*unknown[i];
+            matrix[i][i] += surfaceRidge;
+            right[i] -= surfaceRidge*unknown[i];
+            cost += surfaceRidge*unknown[i]*unknown[i];
         }
     }
 
     /// Returns the squared difference.
-    double addSample(const FilmSample& sample, double weight, double scale, const double* unknown)
+    double addSample(const SurfaceSample& sample, double weight, double scale, const double* unknown)
     {
         double shape[L::size], middle = 0, thickness = 0;
         shapeFunctions<dim>(sample.along, shape);
@@ -184,7 +150,7 @@ struct NormalEquations
         {
             m[i][i] += damping;
         }
-        solve(m, change);
+        solveSymmetric(m, change);
         for (int i = 0; i < L::size; ++i)
         {
             unknown[i] += std::clamp(change[i], -longestStep, longestStep);
@@ -203,7 +169,7 @@ struct NormalEquations
 } // namespace
 
 template<int dim>
-Film<dim> fitFilm(const FilmSample* samples, int nSamples, double steepness, double wanted)
+Film<dim> fitFilm(const SurfaceSample* samples, int nSamples, double steepness, double wanted)
 {
     using L = Layout<dim>;
     double best[L::size], damping = firstDamping;
@@ -235,11 +201,12 @@ Film<dim> fitFilm(const FilmSample* samples, int nSamples, double steepness, dou
     film.residual = hasConverged ? atBest.residual : 1e300;
     std::copy_n(&best[L::tilt], L::tangents, film.tilt);
     std::copy_n(&best[L::taper], L::tangents, film.taper);
+    std::copy_n(&best[L::curvature], L::thickness - L::curvature, film.curvature);
     return film;
 }
 
 template<int dim>
-void fillFilm(Film<dim>& film, const FilmSample& own, double steepness)
+void fillFilm(Film<dim>& film, const SurfaceSample& own, double steepness)
 {
     const double scale = steepness/slopeLength<dim>(film.tilt);
     double middle = film.middle, wedge = 0;
@@ -267,9 +234,9 @@ void fillFilm(Film<dim>& film, const FilmSample& own, double steepness)
 
 template struct Film<2>;
 template struct Film<3>;
-template Film<2> fitFilm<2>(const FilmSample*, int, double, double);
-template Film<3> fitFilm<3>(const FilmSample*, int, double, double);
-template void fillFilm<2>(Film<2>&, const FilmSample&, double);
-template void fillFilm<3>(Film<3>&, const FilmSample&, double);
+template Film<2> fitFilm<2>(const SurfaceSample*, int, double, double);
+template Film<3> fitFilm<3>(const SurfaceSample*, int, double, double);
+template void fillFilm<2>(Film<2>&, const SurfaceSample&, double);
+template void fillFilm<3>(Film<3>&, const SurfaceSample&, double);
 
 } // namespace flotsam

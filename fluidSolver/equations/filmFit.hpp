@@ -8,16 +8,10 @@
 /// must vary inside the cell, or it is carried along the film to first order only.
 #pragma once
 
+#include "equations/surfaceFit.hpp"
+
 namespace flotsam
 {
-
-/// A dual cell: its centroid in units of the fitted cell's thickness h, and the mean of the film's phase.
-struct FilmSample
-{
-    double across, along[2];    ///< s and z
-    double thickness, growth;   ///< of the slab with the cell's second moment, over delta; exp(thickness/2)
-    double alpha;
-};
 
 template<int dim>
 struct Film
@@ -25,13 +19,14 @@ struct Film
     static constexpr int tangents = dim - 1;
     double middle, thickness;           ///< at z = 0 [h]
     double tilt[tangents], taper[tangents];
+    double curvature[tangents*dim/2];   ///< K [1/h], upper triangle
     double residual;                    ///< sum of the squared differences of the other cells' means
 };
 
 /// samples[0] is the cell that is fitted; steepness = h/delta; wanted: residual below which the film is of use. The residual is 1e300 where no fit was found.
-template<int dim> Film<dim> fitFilm(const FilmSample* samples, int nSamples, double steepness, double wanted);
+template<int dim> Film<dim> fitFilm(const SurfaceSample* samples, int nSamples, double steepness, double wanted);
 
 /// Changes the thickness so that the mean of samples[0] is met.
-template<int dim> void fillFilm(Film<dim>& film, const FilmSample& own, double steepness);
+template<int dim> void fillFilm(Film<dim>& film, const SurfaceSample& own, double steepness);
 
 } // namespace flotsam

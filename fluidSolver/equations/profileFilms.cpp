@@ -2,7 +2,6 @@
 /// Cells that hold both surfaces of a film: found by what one front misses in the neighbours.
 #include "equations/filmFit.hpp"
 #include "equations/profileReconstruction.hpp"
-#include "equations/surfaceLevel.hpp"
 
 #include "geometry/cover.hpp"
 
@@ -12,31 +11,16 @@ namespace flotsam
 namespace
 {
 
-constexpr int maxRing = 128;
 /// A surface is thick where the cell's neighbours reach both phases up to this.
 constexpr double pureLimit = 0.01;
 /// A front whose neighbours are met this well needs no film; a film must meet them by this factor better.
-constexpr double frontIsGood = 1e-2, filmIsBetter = 0.1;
+constexpr double frontIsGood = 1e-3, filmIsBetter = 0.1;
 /// Cells with less of either phase carry too little for a fit to pay.
 constexpr double leastFilled = 0.03;
 /// Largest thickness of a film, of the cell's.
 constexpr double thickFilm = 4;
 /// Ties are decided the same way whatever the round-off, on any number of ranks.
 constexpr double tie = 1e-6;
-
-template<int dim>
-void normalise(double (&v)[dim])
-{
-    double square = 1e-300;
-    for (const double x : v)
-    {
-        square += x*x;
-    }
-    for (double& x : v)
-    {
-        x /= std::sqrt(square);
-    }
-}
 
 /// About the eigenvector of the largest eigenvalue, by powers; the fit turns what is left.
 template<int dim>
@@ -65,50 +49,6 @@ void commonDirection(const double (&tensor)[dim][dim], double (&direction)[dim])
 }
 
 } // namespace
-
-/// The node and its neighbours.
-template<int dim>
-int ProfileReconstruction::findRing(int i, const Cover* cover, int* ring) const
-{
-    int size = 1;
-    ring[0] = i;
-    for (int k = graph_.nodeElementStart[i]; k < graph_.nodeElementStart[i + 1]; ++k)
-    {
-        const int e = graph_.nodeElement[k];
-        if (cover && cover->state[e] == ElementState::Solid)
-        {
-            continue;
-        }
-        const int* nodes = &mesh_.elements[std::size_t(e)*(dim + 1)];
-        for (int a = 0; a <= dim && size < maxRing; ++a)
-        {
-            if (std::find(ring, ring + size, nodes[a]) == ring + size)
-            {
-                ring[size++] = nodes[a];
-            }
-        }
-    }
-    return size;
-}
-
-/// What the front of ring[0] misses in its neighbours: sum of squared differences of alpha.
-template<int dim>
-double ProfileReconstruction::frontResidual(const int* ring, int size, const std::vector<double>& alpha) const
-{
-    const NodeProfile& p = profile_[ring[0]];
-    double sum = 0;
-    for (int k = 1; k < size; ++k)
-    {
-        double psi = p.value;
-        for (int d = 0; d < dim; ++d)
-        {
-            psi += p.steepness*p.normal[d]*(mesh_.x[std::size_t(ring[k])*dim + d] + cells_.centroid(ring[k])[d] - mesh_.x[std::size_t(ring[0])*dim + d]);
-        }
-        const double defect = ProfileSlab{psi, 2*cells_.halfWidth(ring[k], p.normal)*p.steepness}.mean() - alpha[ring[k]];
-        sum += defect*defect;
-    }
-    return sum;
-}
 
 /// axes[0]: the direction, without its sign, that the elements' normals around a node have in common; the others complete it.
 template<int dim>
@@ -147,53 +87,14 @@ void ProfileReconstruction::findFilmAxes(int i, const std::vector<double>& alpha
         }
     }
     commonDirection(tensor, axes[0]);
-    const double* m = axes[0];
-    if constexpr (dim == 2)
-    {
-        axes[1][0] = -m[1];
-        axes[1][1] = m[0];
-    }
-    else
-    {
-        const bool isAlongX = std::abs(m[0]) > 0.6;
-        axes[1][0] = isAlongX ? -m[2] : 0;
-        axes[1][1] = isAlongX ? 0 : m[2];
-        axes[1][2] = isAlongX ? m[0] : -m[1];
-        normalise(axes[1]);
-        for (int d = 0; d < 3; ++d)
-        {
-            const int b = (d + 1) % 3, c = (d + 2) % 3;
-            axes[2][d] = m[b]*axes[1][c] - m[c]*axes[1][b];
-        }
-    }
-}
-
-/// Node j's cell in the axes of a film at node i, lengths in units of `length`.
-template<int dim>
-FilmSample ProfileReconstruction::sampleOf(int i, int j, double share, const double (&axes)[dim][dim], double length) const
-{
-    FilmSample sample;
-    double place[3] = {};
-    for (int d = 0; d < dim; ++d)
-    {
-        const double x = mesh_.x[std::size_t(j)*dim + d] + cells_.centroid(j)[d] - mesh_.x[std::size_t(i)*dim + d];
-        for (int c = 0; c < dim; ++c)
-        {
-            place[c] += axes[c][d]*x/length;
-        }
-    }
-    sample.across = place[0];
-    std::copy_n(place + 1, 2, sample.along);
-    sample.thickness = std::min(2*cells_.halfWidth(j, axes[0])*profile_[i].steepness, 300.);
-    sample.growth = std::exp(0.5*sample.thickness);
-    sample.alpha = share;
-    return sample;
+    completeAxes<dim>(axes);
 }
 
 /// Whether node i, which has a front, is better described by a film; if so, it is one.
 template<int dim>
-bool ProfileReconstruction::fitFilm(int i, const std::vector<double>& alpha, bool isCoherent, const Cover* cover)
+bool ProfileReconstruction::fitFilm(const int* ring, int size, const std::vector<double>& alpha, bool isCoherent, const Cover* cover)
 {
+    const int i = ring[0];
     if (std::min(alpha[i], 1 - alpha[i]) < leastFilled)
     {
         return false;
@@ -220,8 +121,6 @@ bool ProfileReconstruction::fitFilm(int i, const std::vector<double>& alpha, boo
             return false;
         }
     }
-    int ring[maxRing];
-    const int size = findRing<dim>(i, cover, ring);
     const double residual = frontResidual<dim>(ring, size, alpha);
     if (residual < frontIsGood)
     {
@@ -232,7 +131,7 @@ bool ProfileReconstruction::fitFilm(int i, const std::vector<double>& alpha, boo
     double axes[dim][dim];
     findFilmAxes<dim>(i, alpha, cover, axes);
     const double length = 2*cells_.halfWidth(i, axes[0]), steepness = length*p.steepness;
-    FilmSample samples[maxRing];
+    SurfaceSample samples[maxRing];
     for (int k = 0; k < size; ++k)
     {
         samples[k] = sampleOf<dim>(i, ring[k], isGas ? 1 - alpha[ring[k]] : alpha[ring[k]], axes, length);
@@ -255,8 +154,10 @@ bool ProfileReconstruction::fitFilm(int i, const std::vector<double>& alpha, boo
         slope += t*t;
     }
     slope = std::sqrt(slope);
-    p.value = steepness/slope*(0.5*film.thickness + film.middle);
-    p.otherValue = steepness/slope*(0.5*film.thickness - film.middle);
+    setBend<dim>(p, film.curvature, axes, -1/(slope*length));
+    const double ownBend = p.steepness*cells_.meanBend(i, p.bend);      // the fit has it in the middle
+    p.value = steepness/slope*(0.5*film.thickness + film.middle) + ownBend;
+    p.otherValue = steepness/slope*(0.5*film.thickness - film.middle) - ownBend;
     for (int d = 0; d < dim; ++d)
     {
         p.normal[d] = axes[0][d]/slope;
@@ -270,7 +171,7 @@ bool ProfileReconstruction::fitFilm(int i, const std::vector<double>& alpha, boo
     return true;
 }
 
-template bool ProfileReconstruction::fitFilm<2>(int, const std::vector<double>&, bool, const Cover*);
-template bool ProfileReconstruction::fitFilm<3>(int, const std::vector<double>&, bool, const Cover*);
+template bool ProfileReconstruction::fitFilm<2>(const int*, int, const std::vector<double>&, bool, const Cover*);
+template bool ProfileReconstruction::fitFilm<3>(const int*, int, const std::vector<double>&, bool, const Cover*);
 
 } // namespace flotsam

@@ -9,19 +9,12 @@ namespace flotsam
 namespace
 {
 
-/// Outside [bandEdge, 1 - bandEdge] a cell counts as full or empty.
-constexpr double bandEdge = 1e-4;
 /// Below this ratio |sum of normals|/sum of |normals| a cell gets a roof instead of one front.
 constexpr double coherenceLimit = 0.95;
 
 /// Slope, relative to the equilibrium profile's, below which alpha counts as mixed: there is no surface to keep sharp
 /// (and where the width varies with the mesh, a constant alpha has a slope of this order).
 constexpr double flatSlope = 0.05;
-
-bool isInBand(double alpha)
-{
-    return alpha > bandEdge && alpha < 1 - bandEdge;
-}
 
 /// Slope of a roof over the interpolated one: blunt for filaments (opposed normals), sharp for corners.
 double roofFactorOf(double coherence)
@@ -83,7 +76,7 @@ void ProfileReconstruction::sumNormals(const std::vector<double>& alpha, const s
     for (int e : elements)
     {
         const int* nodes = &mesh_.elements[std::size_t(e)*n];
-        if (std::none_of(nodes, nodes + n, [&](int i) { return isInBand(alpha[i]); }))
+        if (std::none_of(nodes, nodes + n, [&](int i) { return isMixed(alpha[i]); }))
         {
             continue;
         }
@@ -143,18 +136,16 @@ void ProfileReconstruction::sumNormals(const std::vector<double>& alpha, const s
     }
 }
 
+/// Puts the front where the cell's mean is alpha.
 template<int dim>
-void ProfileReconstruction::fitFront(int i, double alpha)
+void ProfileReconstruction::fillFront(int i, double alpha)
 {
     NodeProfile& p = profile_[i];
     const double thickness = std::min(2*cells_.halfWidth(i, p.normal)*p.steepness, 600.);
-    double toCentroid = 0;
-    for (int d = 0; d < dim; ++d)
-    {
-        toCentroid += p.normal[d]*cells_.centroid(i)[d];
-    }
+    double gradient[dim];
+    const double meanDistance = bentDistance<dim>(p, cells_.centroid(i), gradient) + cells_.meanBend(i, p.bend);
     p.kind = NodeProfile::Kind::Front;
-    p.value = std::log(frontFromMean(alpha, thickness)) - toCentroid*p.steepness;
+    p.value = std::log(frontFromMean(alpha, thickness)) - meanDistance*p.steepness;
 }
 
 template<int dim>
@@ -220,7 +211,7 @@ void ProfileReconstruction::build(const std::vector<double>& alpha, const std::v
     {
         NodeProfile& p = profile_[i];
         p.kind = NodeProfile::Kind::Tail;
-        if (!isInBand(alpha[i]))
+        if (!isMixed(alpha[i]))
         {
             continue;
         }
@@ -241,13 +232,21 @@ void ProfileReconstruction::build(const std::vector<double>& alpha, const std::v
             p.normal[d] = g[d]/length;
         }
         p.steepness = 1/width_[i];
+        std::fill_n(p.bend, 6, 0.);
         const double coherence = length/coherence_[i];
-        fitFront<dim>(i, alpha[i]);
-        if (fitFilm<dim>(i, alpha, coherence >= coherenceLimit, cover))
+        const bool isCoherent = coherence >= coherenceLimit;
+        int ring[maxRing];
+        const int size = findRing<dim>(i, cover, ring);
+        if (isCoherent)
+        {
+            bendFront<dim>(ring, size, alpha);
+        }
+        fillFront<dim>(i, alpha[i]);
+        if (fitFilm<dim>(ring, size, alpha, isCoherent, cover))
         {
             nFilms_ += i < mesh_.nOwned;
         }
-        else if (coherence >= coherenceLimit)
+        else if (isCoherent)
         {
             nFronts_ += i < mesh_.nOwned;
         }

@@ -2,7 +2,7 @@
 /// The model's own profile inside every dual cell that the free surface crosses.
 ///
 /// A cell's alpha is taken as the mean of 1/(1+exp(-psi)), psi = distance/width, over the cell. Where the neighbours agree
-/// on the direction the surface is one plane front; elsewhere (thin filaments, corners) psi is a "roof": one slope and
+/// on the direction the surface is one front of second degree (frontFit.hpp); elsewhere (thin filaments, corners) psi is a "roof": one slope and
 /// direction per element around the node, one value at the node. Films with both surfaces in a cell are fitted to the neighbours (filmFit.hpp).
 #pragma once
 
@@ -14,14 +14,15 @@
 namespace flotsam
 {
 
-struct FilmSample;
+struct SurfaceSample;
 
-/// psi(x) = value + steepness normal.(x - x_node) (front), or per element (roof). A film of one phase has two fronts:
-/// psi = value + steepness (taper -+ normal).(x - x_node), its alpha is the sum of both less 1.
+/// psi(x) = value + steepness (normal.r + r.K r/2) (front), r = x - x_node, or per element (roof). A film of one phase has two fronts:
+/// psi = value + steepness (taper.r -+ (normal.r + r.K r/2)), its alpha is the sum of both less 1.
 struct NodeProfile
 {
     enum class Kind : int { Tail, Bulk, Front, Roof, Film };
     double normal[3];       ///< unit, into the liquid (front) or across the film
+    double bend[6];         ///< K [1/m]: xx yy xy, in 3D xx yy zz xy xz yz
     double taper[3];        ///< half the gradient of a film's thickness
     double value;           ///< psi at the node
     double otherValue;      ///< of a film's second front
@@ -30,6 +31,30 @@ struct NodeProfile
     Kind kind;
     bool isGas;             ///< the film is of gas
 };
+
+/// normal.r + r.K r/2 [m] and its gradient normal + K r.
+template<int dim>
+double bentDistance(const NodeProfile& p, const double* r, double* gradient)
+{
+    const double* k = p.bend;
+    if constexpr (dim == 2)
+    {
+        gradient[0] = p.normal[0] + k[0]*r[0] + k[2]*r[1];
+        gradient[1] = p.normal[1] + k[2]*r[0] + k[1]*r[1];
+    }
+    else
+    {
+        gradient[0] = p.normal[0] + k[0]*r[0] + k[3]*r[1] + k[4]*r[2];
+        gradient[1] = p.normal[1] + k[3]*r[0] + k[1]*r[1] + k[5]*r[2];
+        gradient[2] = p.normal[2] + k[4]*r[0] + k[5]*r[1] + k[2]*r[2];
+    }
+    double distance = 0;
+    for (int d = 0; d < dim; ++d)
+    {
+        distance += 0.5*(p.normal[d] + gradient[d])*r[d];
+    }
+    return distance;
+}
 
 /// Weight of a node in the normals around it: 0 in water and gas.
 inline double variation(double alpha)
@@ -53,6 +78,13 @@ inline double sweptMean(double psi, double swept)
         return first > 0 ? 1 : 0;
     }
     return std::log((1 + std::exp(first))/(1 + std::exp(last)))/(first - last);
+}
+
+/// Outside [mixedEdge, 1 - mixedEdge] a cell counts as full or empty.
+constexpr double mixedEdge = 1e-4;
+inline bool isMixed(double alpha)
+{
+    return alpha > mixedEdge && alpha < 1 - mixedEdge;
 }
 
 /// exp(psi at the middle of a slab) from the mean alpha of 1/(1+exp(-psi)) over it; thickness in widths.
@@ -83,15 +115,19 @@ public:
 
 private:
     template<int dim> void sumNormals(const std::vector<double>& alpha, const std::vector<int>& elements, const Cover* cover);
-    template<int dim> void fitFront(int i, double alpha);
-    template<int dim> bool fitFilm(int i, const std::vector<double>& alpha, bool isCoherent, const Cover* cover);
+    template<int dim> void fillFront(int i, double alpha);
+    template<int dim> void bendFront(const int* ring, int size, const std::vector<double>& alpha);
+    template<int dim> static void setBend(NodeProfile& p, const double* curvature, const double (&axes)[dim][dim], double factor);
+    template<int dim> bool fitFilm(const int* ring, int size, const std::vector<double>& alpha, bool isCoherent, const Cover* cover);
     template<int dim> int findRing(int i, const Cover* cover, int* ring) const;
     template<int dim> void findFilmAxes(int i, const std::vector<double>& alpha, const Cover* cover, double (&axes)[dim][dim]) const;
-    template<int dim> FilmSample sampleOf(int i, int j, double share, const double (&axes)[dim][dim], double length) const;
+    template<int dim> SurfaceSample sampleOf(int i, int j, double share, const double (&axes)[dim][dim], double length) const;
     template<int dim> double frontResidual(const int* ring, int size, const std::vector<double>& alpha) const;
     template<int dim> void fitRoof(int i, double alpha, const Cover* cover);
     template<int dim> void build(const std::vector<double>& alpha, const std::vector<int>& elements,
         const std::vector<int>& nodes, const Cover* cover);
+
+    static constexpr int maxRing = 128;
 
     const SimplexMesh& mesh_;
     const NodeGraph& graph_;

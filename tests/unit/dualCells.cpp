@@ -38,6 +38,8 @@ TEST_CASE("dual cells fill the mesh; their moments add up to those of the box")
             const double y = mesh.x[std::size_t(i)*dim + 1] + cells.centroid(i)[1];
             const double n[3] = {0, 1, 0};
             const double L = cells.halfWidth(i, n);
+            const double K[6] = {0, 2, 0, 0, 0, 0};
+            CHECK(cells.meanBend(i, K) == doctest::Approx(L*L/3).epsilon(1e-12));
             total += cells.volume(i);
             first += cells.volume(i)*y;
             second += cells.volume(i)*(y*y + L*L/3);

@@ -18,14 +18,14 @@ struct Shape { double middle, tilt, curvature, thickness, taper; };
 
 /// Means of a film, bent and tapered along the first tangent, over the cells of a block of 3^dim.
 template<int dim>
-std::vector<FilmSample> samplesOf(const Shape& shape)
+std::vector<SurfaceSample> samplesOf(const Shape& shape)
 {
-    std::vector<FilmSample> samples;
+    std::vector<SurfaceSample> samples;
     const double scale = steepness/std::sqrt(1 + shape.tilt*shape.tilt), growth = std::exp(0.5*steepness);
     for (int k = 0; k < (dim == 2 ? 9 : 27); ++k)
     {
         const auto place = [k](int stride) { return double((k/stride + 1) % 3) - 1; };  // k = 0: the middle of the block
-        FilmSample s{place(1), {place(3), dim == 3 ? place(9) : 0}, steepness, growth, 0};
+        SurfaceSample s{place(1), {place(3), dim == 3 ? place(9) : 0}, steepness, growth, 0};
         const double z = s.along[0], half = 0.5*(shape.thickness + shape.taper*z);
         const double middle = shape.middle + shape.tilt*z + 0.5*shape.curvature*z*z;
         s.alpha = ProfileSlab{scale*(half - s.across + middle), steepness}.mean() + ProfileSlab{scale*(half + s.across - middle), steepness}.mean() - 1;
@@ -37,7 +37,7 @@ std::vector<FilmSample> samplesOf(const Shape& shape)
 template<int dim>
 void checkRecovered(const Shape& shape)
 {
-    const std::vector<FilmSample> samples = samplesOf<dim>(shape);
+    const std::vector<SurfaceSample> samples = samplesOf<dim>(shape);
     REQUIRE(samples[0].across == 0);
     Film<dim> film = fitFilm<dim>(samples.data(), int(samples.size()), steepness, 1);
     CHECK(std::abs(film.middle - shape.middle) < 0.02);

@@ -19,6 +19,11 @@ def experiment():
     return np.loadtxt("reference/front.csv", delimiter=",", unpack=True)
 
 
+def isBesideObstacle(front):
+    """Whether a front, over the column's width, is at the obstacle or past it."""
+    return front >= 0.95 * OBSTACLE / COLUMN
+
+
 def computed(case="."):
     """Times and front [m]: how far water reaches along the bottom, from its volume in the lowest layer of cells."""
     written, front = [], []

@@ -10,8 +10,8 @@ from support.files import around, blockMesh, bodies, control, field, gravity, le
 SOURCE = "Kramer et al. 2021, experiment"
 DIAMETER, DROP, PERIOD, END = 0.3, 0.03, 0.7561, 2.3
 
-title = """Sphere of 0.3 m, 7.056 kg, half immersed at rest, released 0.03 m above (Kramer et al. 2021, 95 % band of the experiment). Basin 4 x 4 m (13 x 8.44 m in the experiment: waves that
-the walls send back arrive after 6 s), 0.9 m deep, slip walls; N elements a diameter within 0.2 m of the sphere, wider elsewhere; three periods. The body is of uniform density."""
+title = """Sphere of 0.3 m, 7.056 kg, half immersed at rest, released 0.03 m above (Kramer et al. 2021, 95 % band of the experiment). Basin 8 x 8 m (13 x 8.44 m in the experiment), 0.9 m deep, slip walls
+(long waves come back after 2.7 s; from walls at 2 m after 1.3 s, and lift the mean by 0.012 H0); N elements a diameter within 0.2 m of the sphere, wider elsewhere; three periods. The body is of uniform density."""
 
 runs = [Run("flotsamFoam", n, quick=n == 8, timeLimit=3600) for n in (8, 12, 16)]
 
@@ -22,7 +22,7 @@ def resolution(run):
 
 def files(run, _folder):
     h = DIAMETER / run.n
-    side = around(-2, -0.2, 0.2, 2, h, 1.2)
+    side = around(-4, -0.2, 0.2, 4, h, 1.2)
     height = around(-0.9, -0.22, 0.22, 0.4, h, 1.25)
     density = 7.056 / (np.pi / 6 * DIAMETER**3)
     walls = "type fixedFluxPressure; value uniform 0;"

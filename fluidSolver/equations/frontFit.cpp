@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "equations/frontFit.hpp"
+#include "equations/profileReconstruction.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flotsam
+{
+
+template<int dim>
+bool fitFront(const SurfaceSample* samples, int nSamples, double steepness, Front<dim>& front)
+{
+    using S = SurfaceShape<dim>;
+    constexpr int across = S::size, size = S::size + 1;
+    double matrix[size][size] = {}, unknown[size] = {}, shape[size];
+    for (int k = 0; k < nSamples; ++k)
+    {
+        const SurfaceSample& sample = samples[k];
+        const double distance = std::log(frontFromMean(sample.alpha, sample.thickness))/steepness;
+        const double weight = 16*variation(sample.alpha)*variation(sample.alpha);
+        S::derivatives(sample.along, shape);
+        shape[across] = sample.across;
+        for (int i = 0; i < size; ++i)
+        {
+            unknown[i] += weight*shape[i]*distance;
+            for (int j = i; j < size; ++j)
+            {
+                matrix[i][j] += weight*shape[i]*shape[j];
+            }
+        }
+    }
+    for (int i = S::tilt; i < size; ++i)
+    {
+        matrix[i][i] += surfaceRidge;
+    }
+    unknown[across] += surfaceRidge;    // undetermined, it is that of a distance
+    solveSymmetric(matrix, unknown);
+    if (!(unknown[across] > 0))
+    {
+        return false;
+    }
+    double square = unknown[across]*unknown[across];
+    for (int d = 0; d < S::tangents; ++d)
+    {
+        square += unknown[S::tilt + d]*unknown[S::tilt + d];
+    }
+    const double length = std::sqrt(square);
+    front.across = unknown[across]/length;
+    std::transform(unknown + S::tilt, unknown + S::curvature, front.tilt, [length](double b) { return b/length; });
+    std::transform(unknown + S::curvature, unknown + S::size, front.curvature, [length](double k) { return std::clamp(k/length, -largestCurvature, largestCurvature); });
+    return true;
+}
+
+template bool fitFront<2>(const SurfaceSample*, int, double, Front<2>&);
+template bool fitFront<3>(const SurfaceSample*, int, double, Front<3>&);
+
+} // namespace flotsam

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Cells with one front: its direction and curvature from the neighbours.
+#include "equations/frontFit.hpp"
+#include "equations/profileReconstruction.hpp"
+#include "equations/surfaceLevel.hpp"
+
+#include "geometry/cover.hpp"
+
+namespace flotsam
+{
+
+/// The node and its neighbours.
+template<int dim>
+int ProfileReconstruction::findRing(int i, const Cover* cover, int* ring) const
+{
+    int size = 1;
+    ring[0] = i;
+    for (int k = graph_.nodeElementStart[i]; k < graph_.nodeElementStart[i + 1]; ++k)
+    {
+        const int e = graph_.nodeElement[k];
+        if (cover && cover->state[e] == ElementState::Solid)
+        {
+            continue;
+        }
+        const int* nodes = &mesh_.elements[std::size_t(e)*(dim + 1)];
+        for (int a = 0; a <= dim && size < maxRing; ++a)
+        {
+            if (std::find(ring, ring + size, nodes[a]) == ring + size)
+            {
+                ring[size++] = nodes[a];
+            }
+        }
+    }
+    return size;
+}
+
+/// Node j's cell in axes at node i, lengths in units of `length`.
+template<int dim>
+SurfaceSample ProfileReconstruction::sampleOf(int i, int j, double share, const double (&axes)[dim][dim], double length) const
+{
+    SurfaceSample sample;
+    double place[3] = {};
+    for (int d = 0; d < dim; ++d)
+    {
+        const double x = mesh_.x[std::size_t(j)*dim + d] + cells_.centroid(j)[d] - mesh_.x[std::size_t(i)*dim + d];
+        for (int c = 0; c < dim; ++c)
+        {
+            place[c] += axes[c][d]*x/length;
+        }
+    }
+    sample.across = place[0];
+    std::copy_n(place + 1, 2, sample.along);
+    sample.thickness = std::min(2*cells_.halfWidth(j, axes[0])*profile_[i].steepness, 300.);
+    sample.growth = std::exp(0.5*sample.thickness);
+    sample.alpha = share;
+    return sample;
+}
+
+/// Turns and bends the front of ring[0] so that the neighbours are met.
+template<int dim>
+void ProfileReconstruction::bendFront(const int* ring, int size, const std::vector<double>& alpha)
+{
+    NodeProfile& p = profile_[ring[0]];
+    double axes[dim][dim];
+    std::copy_n(p.normal, dim, axes[0]);
+    completeAxes<dim>(axes);
+    const double length = 2*cells_.halfWidth(ring[0], axes[0]);
+    SurfaceSample samples[maxRing];
+    int nSamples = 0;
+    for (int k = 0; k < size; ++k)
+    {
+        if (isMixed(alpha[ring[k]]))
+        {
+            samples[nSamples++] = sampleOf<dim>(ring[0], ring[k], alpha[ring[k]], axes, length);
+        }
+    }
+    Front<dim> front;
+    if (!fitFront<dim>(samples, nSamples, length*p.steepness, front))
+    {
+        return;
+    }
+    for (int d = 0; d < dim; ++d)
+    {
+        p.normal[d] = front.across*axes[0][d];
+        for (int c = 0; c < dim - 1; ++c)
+        {
+            p.normal[d] += front.tilt[c]*axes[c + 1][d];
+        }
+    }
+    setBend<dim>(p, front.curvature, axes, 1/length);
+}
+
+/// p.bend = factor sum of K_ab t_a t_b, K the upper triangle in the tangents axes[1], ...
+template<int dim>
+void ProfileReconstruction::setBend(NodeProfile& p, const double* curvature, const double (&axes)[dim][dim], double factor)
+{
+    std::fill_n(p.bend, 6, 0.);
+    int k = 0;
+    for (int a = 1; a < dim; ++a)
+    {
+        for (int b = a; b < dim; ++b, ++k)
+        {
+            int mixed = dim;
+            for (int d = 0; d < dim; ++d)
+            {
+                for (int c = d; c < dim; ++c)
+                {
+                    const double product = a == b ? axes[a][d]*axes[a][c] : axes[a][d]*axes[b][c] + axes[b][d]*axes[a][c];
+                    p.bend[c == d ? d : mixed++] += factor*curvature[k]*product;
+                }
+            }
+        }
+    }
+}
+
+/// What the front of ring[0] misses in its neighbours: sum of squared differences of alpha.
+template<int dim>
+double ProfileReconstruction::frontResidual(const int* ring, int size, const std::vector<double>& alpha) const
+{
+    const NodeProfile& p = profile_[ring[0]];
+    double sum = 0;
+    for (int k = 1; k < size; ++k)
+    {
+        const int j = ring[k];
+        double x[dim], gradient[dim];
+        for (int d = 0; d < dim; ++d)
+        {
+            x[d] = mesh_.x[std::size_t(j)*dim + d] + cells_.centroid(j)[d] - mesh_.x[std::size_t(ring[0])*dim + d];
+        }
+        const double psi = p.value + p.steepness*(bentDistance<dim>(p, x, gradient) + cells_.meanBend(j, p.bend));
+        const double defect = ProfileSlab{psi, 2*cells_.halfWidth(j, p.normal)*p.steepness}.mean() - alpha[j];
+        sum += defect*defect;
+    }
+    return sum;
+}
+
+template int ProfileReconstruction::findRing<2>(int, const Cover*, int*) const;
+template int ProfileReconstruction::findRing<3>(int, const Cover*, int*) const;
+template SurfaceSample ProfileReconstruction::sampleOf<2>(int, int, double, const double (&)[2][2], double) const;
+template SurfaceSample ProfileReconstruction::sampleOf<3>(int, int, double, const double (&)[3][3], double) const;
+template void ProfileReconstruction::bendFront<2>(const int*, int, const std::vector<double>&);
+template void ProfileReconstruction::bendFront<3>(const int*, int, const std::vector<double>&);
+template void ProfileReconstruction::setBend<2>(NodeProfile&, const double*, const double (&)[2][2], double);
+template void ProfileReconstruction::setBend<3>(NodeProfile&, const double*, const double (&)[3][3], double);
+template double ProfileReconstruction::frontResidual<2>(const int*, int, const std::vector<double>&) const;
+template double ProfileReconstruction::frontResidual<3>(const int*, int, const std::vector<double>&) const;
+
+} // namespace flotsam
