@@ -130,9 +130,10 @@ void PressureHierarchy::update(const FlowSystem& system, const std::vector<doubl
         for (int i = 0; i < mesh_.nOwned; ++i) weight_[i] = scale[i]/builtScale_[i];
         return;
     }
+    check(PCDestroy(&cycle_));  // first: it keeps the old matrix and its levels
     createMatrix(system);
     fillMatrix(system);
-    if (!cycle_) createCycle();
+    createCycle();
     check(PCSetOperators(cycle_, matrix_, matrix_));
     check(PCSetUp(cycle_));
     age_ = nSolves_ = leastIterations_ = lastExcess_ = sumOfExcess_ = 0;

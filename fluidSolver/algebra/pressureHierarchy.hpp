@@ -32,6 +32,8 @@ public:
 
     /// A new step's system: builds the hierarchy when that pays. scale: nOwned, 1/sqrt(diagonal) of the pressure's rows.
     void update(const FlowSystem& system, const std::vector<double>& scale);
+    /// Whether update() will build it.
+    bool isWorn() const;
     bool isNew() const { return age_ == 0; }
     /// The next step builds it anew.
     void forget() { age_ = -1; }
@@ -47,7 +49,6 @@ private:
     void fillMatrix(const FlowSystem& system);
     void addGhosts(const FlowSystem& system);
     void createCycle();
-    bool isWorn() const;
 
     const SimplexMesh& mesh_;
     const NodeGraph& graph_;
