@@ -73,13 +73,14 @@ inline void loadConvection(const ElementSource& source, const double* lastFluxes
 {
     using Pairs = CornerPairs<D>;
     constexpr int N = D + 1;
+    const double share = extrapolation/(1 + extrapolation);
     for (int a = 0; a < N; ++a) data.convection[a*(N + 1)] = 0;
     for (int p = 0; p < Pairs::count; ++p)
     {
         const int a = Pairs::first[p], b = Pairs::second[p];
         const double inStep = massFlux(source.fluxes.liquid[p], source.fluxes.total[p], fluid, controls);
         const double before = lastFluxes ? lastFluxes[p] : source.rhoOld*source.fluxes.total[p];
-        const double ahead = data.isFirstOrder[a] || data.isFirstOrder[b] ? 0 : extrapolation/(1 + extrapolation);
+        const double ahead = data.isFirstOrder[a] || data.isFirstOrder[b] ? 0 : share;
         const double atEnd = data.volume/N*(data.ag[b] - data.ag[a]);
         const double flux = inStep + (ahead > 0 ? ahead*(inStep - before) : data.rho*(atEnd - source.fluxes.total[p]));
         const double mass = std::min(data.nodalInertia[a]*data.first[a], data.nodalInertia[b]*data.first[b])/D;
@@ -172,13 +173,12 @@ inline void loadMomentumHistory(int a, int node, double old, double older, const
     for (int d = 0; d < D && more != 0; ++d) data.momentumHistory[a*D + d] += more*step.state->uOld[std::size_t(node)*D + d];
 }
 
-/// Inertia, momentum history and mass rate of corner a by its own densities.
+/// Inertia, momentum history and mass rate of corner a by its own densities; first: the scheme of first order.
 template<int D>
-inline void loadNodalInertia(int a, int node, bool isFirstOrder, const FlowStepData& step, const NodalData& nodal, ElementData<D>& data)
+inline void loadNodalInertia(int a, int node, bool isFirstOrder, const TimeScheme& first, const FlowStepData& step, const NodalData& nodal, ElementData<D>& data)
 {
     const double now = nodal.rho[node], old = nodal.rhoOld[node], older = nodal.rhoOlder[node];
     const auto inertia = [&](const TimeScheme& t) { return 0.5*(t.c0*now - t.c1*old - t.c2*older); };
-    const TimeScheme first = TimeScheme::bdf(1, step.time.dt, 0);
     data.isFirstOrder[a] = isFirstOrder || inertia(step.time) < leastInertia*inertia(first);
     const TimeScheme& t = data.isFirstOrder[a] ? first : step.time;
     data.nodalInertia[a] = inertia(t);
@@ -207,10 +207,11 @@ inline void loadInertia(const int* nodes, const FlowStepData& step, const Numeri
         return;
     }
     const bool isFirstOrder = source.isSteep && controls.surfaceTimeOrder == 1;
+    const TimeScheme first = TimeScheme::bdf(1, step.time.dt, 0);
     double least = data.inertia;
     for (int a = 0; a <= D; ++a)
     {
-        loadNodalInertia(a, nodes[a], isFirstOrder, step, nodal, data);
+        loadNodalInertia(a, nodes[a], isFirstOrder, first, step, nodal, data);
         least = std::min(least, data.nodalInertia[a]);
     }
     data.streamlineDensity *= least/data.inertia;
