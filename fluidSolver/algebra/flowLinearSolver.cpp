@@ -187,6 +187,8 @@ void FlowLinearSolver::setSystem(const FlowSystem& system)
 {
     NoFloatingPointTraps guard;
     impl_->isNewMatrix = system.isNewMatrix;
+    // the set-up of a hierarchy and the vectors of a solve, which hard solves have made many, need not be there at once
+    if (system.isNewMatrix && impl_->system.pressure().isWorn()) impl_->destroyKrylov();
     impl_->system.set(system);
     impl_->createKrylov();
 }

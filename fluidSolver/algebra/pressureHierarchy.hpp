@@ -22,6 +22,8 @@ public:
 
     /// A new step's system: builds the hierarchy when that pays. scale: nOwned, 1/sqrt(diagonal) of the pressure's rows.
     void update(const FlowSystem& system, const std::vector<double>& scale);
+    /// Whether update() will build it.
+    bool isWorn() const;
     bool isNew() const { return age_ == 0; }
     /// The next step builds it anew.
     void forget() { age_ = -1; }
@@ -35,7 +37,6 @@ public:
 private:
     void fillMatrix(const FlowSystem& system, Mat matrix);
     void addGhosts(const FlowSystem& system, Mat matrix);
-    bool isWorn() const;
 
     const SimplexMesh& mesh_;
     const NodeGraph& graph_;

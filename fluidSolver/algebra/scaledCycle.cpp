@@ -31,15 +31,19 @@ Mat ScaledCycle::newMatrix(const FlowSystem& system)
         if (a < n) count(a, b);
         if (b < n) count(b, a);
     }
-    MatDestroy(&matrix_);
+    check(PCDestroy(&cycle_));  // before a new one needs memory: it keeps the old matrix and its levels
+    check(MatDestroy(&matrix_));
     check(MatCreateAIJ(halo_.comm(), n, n, PETSC_DETERMINE, PETSC_DETERMINE, 0, diagonal.data(), 0, offDiagonal.data(), &matrix_));
     return matrix_;
 }
 
 void ScaledCycle::create()
 {
-    check(VecCreateMPI(halo_.comm(), mesh_.nOwned, PETSC_DETERMINE, &in_));
-    check(VecCreateMPIWithArray(halo_.comm(), 1, mesh_.nOwned, PETSC_DETERMINE, nullptr, &out_));
+    if (!in_)
+    {
+        check(VecCreateMPI(halo_.comm(), mesh_.nOwned, PETSC_DETERMINE, &in_));
+        check(VecCreateMPIWithArray(halo_.comm(), 1, mesh_.nOwned, PETSC_DETERMINE, nullptr, &out_));
+    }
     check(PCCreate(halo_.comm(), &cycle_));
     check(PCSetType(cycle_, PCHYPRE));
     check(PCHYPRESetType(cycle_, "boomeramg"));
@@ -65,7 +69,7 @@ void ScaledCycle::build(const std::vector<double>& scale)
     check(MatConvert(matrix_, MATHYPRE, MAT_INITIAL_MATRIX, &copy));
     check(MatDestroy(&matrix_));
     matrix_ = copy;
-    if (!cycle_) create();
+    create();
     check(PCSetOperators(cycle_, matrix_, matrix_));
     check(PCSetUp(cycle_));
     builtScale_ = scale;

@@ -31,6 +31,17 @@ struct NodeGraph
     /// Position in `column` of offset k = (e*(dim+1) + a)*(dim+1) + b, i the node of corner a; -1 if i is not owned.
     int slot(int i, std::size_t k) const { return offset[k] < 0 ? -1 : rowStart[i] + offset[k]; }
 
+    /// slot() of all pairs of the n corners of element e.
+    template<int n> void slots(int e, const int* nodes, int nOwned, int* slot) const
+    {
+        const std::int16_t* at = &offset[std::size_t(e)*n*n];
+        for (int a = 0; a < n; ++a)
+        {
+            const int start = nodes[a] < nOwned ? rowStart[nodes[a]] : 0;
+            for (int b = 0; b < n; ++b) slot[a*n + b] = start + at[a*n + b];   // not owned: -1
+        }
+    }
+
     /// Position in `column` of the neighbour j of owned node i, -1 if they share no element.
     int find(int i, int j) const;
 };

@@ -47,6 +47,9 @@ public:
     struct ElementFluxes { const double* total; const double* liquid; };
     ElementFluxes fluxes(int e) const;
 
+    /// No cover will ever be given.
+    void forgetFaces() { volumeFlux_.forgetNeighbours(); }
+
     /// Interface width delta of a node [m]: controls.interfaceWidth times the mean element length around it.
     const std::vector<double>& width() const { return width_; }
     const DualCells& cells() const { return cells_; }

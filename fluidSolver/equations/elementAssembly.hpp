@@ -68,7 +68,7 @@ struct ElementRow
     Corners velocity[D*D], gradient[D], divergence[D], laplace;
 
     /// viscous: mu V, gradDiv: tau_cont V.
-    ElementRow(const ElementData<D>& e, const NodeFactors<D>& f, int a, double viscous, double gradDiv)
+    [[gnu::always_inline]] ElementRow(const ElementData<D>& e, const NodeFactors<D>& f, int a, double viscous, double gradDiv)
     {
         const double* ga = e.gradN + a*D;
         const double first = e.first[a], supg = f.streamline*e.ag[a] + (e.isVarying ? e.forceShare[a]*first : 0);

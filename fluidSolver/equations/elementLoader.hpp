@@ -74,13 +74,14 @@ inline void loadConvection(const ElementSource& source, const double* lastFluxes
 {
     using Pairs = CornerPairs<D>;
     constexpr int N = D + 1;
+    const double share = extrapolation/(1 + extrapolation);
     for (int a = 0; a < N; ++a) data.convection[a*(N + 1)] = 0;
     for (int p = 0; p < Pairs::count; ++p)
     {
         const int a = Pairs::first[p], b = Pairs::second[p];
         const double inStep = massFlux(source.fluxes.liquid[p], source.fluxes.total[p], fluid, controls);
         const double before = lastFluxes ? lastFluxes[p] : source.rhoOld*source.fluxes.total[p];
-        const double ahead = data.isFirstOrder[a] || data.isFirstOrder[b] ? 0 : extrapolation/(1 + extrapolation);
+        const double ahead = data.isFirstOrder[a] || data.isFirstOrder[b] ? 0 : share;
         const double atEnd = data.volume/N*(data.ag[b] - data.ag[a]);
         const double flux = inStep + (ahead > 0 ? ahead*(inStep - before) : data.rho*(atEnd - source.fluxes.total[p]));
         const double mass = std::min(data.nodalInertia[a]*data.first[a], data.nodalInertia[b]*data.first[b])/D;

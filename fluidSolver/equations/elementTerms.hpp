@@ -51,8 +51,9 @@ struct ElementData
     {
         for (int a = 0; a < N; ++a)
         {
-            ag[a] = 0;
-            for (int d = 0; d < D; ++d) ag[a] += advection[d]*gradN[a*D + d];
+            double sum = 0;     // through ag every addition would wait for the last one's way to memory and back
+            for (int d = 0; d < D; ++d) sum += advection[d]*gradN[a*D + d];
+            ag[a] = sum;
         }
     }
 };
@@ -80,6 +81,7 @@ struct ElementHistory
 {
     double velocity[D] = {};    ///< integral over the fluid part
     double momentum[D] = {};    ///< one density, not cut: of the integral times N_a, but for the node's own second half
+    double residual[D];         ///< with the force over the density: what SUPG and PSPG have on the right
 
     explicit ElementHistory(const ElementData<D>& e)
     {
@@ -88,7 +90,12 @@ struct ElementHistory
             for (int k = 0; k < D; ++k) velocity[k] += e.first[b]*e.history[b*D + k];
         for (int b = 0; b <= D && isPlain; ++b)
             for (int k = 0; k < D; ++k) momentum[k] += e.momentumHistory[b*D + k];
-        for (double& m : momentum) m *= mixedMoment(e);
+        const double mixed = mixedMoment(e), volumeOverRho = e.volume/e.rho;
+        for (int k = 0; k < D; ++k)
+        {
+            momentum[k] *= mixed;
+            residual[k] = velocity[k] + volumeOverRho*e.force[k];
+        }
     }
 };
 
@@ -100,15 +107,14 @@ inline void addSource(const ElementData<D>& e, int a, const ElementHistory<D>& h
     const double* ga = e.gradN + a*D;
     const double streamline = e.tau*e.streamlineDensity*e.ag[a];
     const double forced = (e.isVarying ? 1 + e.forceShare[a] : 1)*e.first[a];
-    const double own = e.isVarying ? e.first[a] : e.second ? 0 : mixedMoment(e), volumeOverRho = e.volume/e.rho;
+    const double own = e.isVarying ? e.first[a] : e.second ? 0 : mixedMoment(e);
     double pspg = 0;
     for (int k = 0; k < D; ++k)
     {
         double mass = history.momentum[k] + own*e.momentumHistory[a*D + k];
         for (int b = 0; b < N && e.second && !e.isVarying; ++b) mass += e.second[a*N + b]*e.momentumHistory[b*D + k];
-        const double residual = history.velocity[k] + volumeOverRho*e.force[k];
-        rhs[k] += mass + streamline*residual + forced*e.force[k];
-        pspg += ga[k]*residual;
+        rhs[k] += mass + streamline*history.residual[k] + forced*e.force[k];
+        pspg += ga[k]*history.residual[k];
     }
     rhs[D] += e.tau*pspg;
 }

@@ -139,7 +139,7 @@ void FlowEquation::assembleElements()
             system_.pressureMass[i] += data.first[a]*pressureMass;
         }
         int slot[N*N];
-        for (int k = 0; k < N*N; ++k) slot[k] = graph_.slot(nodes[k/N], std::size_t(e)*N*N + k);
+        graph_.slots<N>(e, nodes, mesh_.nOwned, slot);
         addElement(data, slot, system_);
     }
     for (int i = 0; i < mesh_.nOwned; ++i) startRow(i, isStarted);

@@ -26,7 +26,9 @@ Fluid::Fluid(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& f
 
 void Fluid::forgetFaces()
 {
-    if (!gas_) std::vector<InteriorFace>().swap(graph_.faces);
+    if (gas_) return;
+    std::vector<InteriorFace>().swap(graph_.faces);
+    transport_.forgetFaces();
 }
 
 void Fluid::start(FlowState state, bool isSharp)
@@ -72,8 +74,9 @@ const std::vector<double>& Fluid::halfStep(const std::vector<double>& now, const
 
 TransportReport Fluid::advancePhase(double dt)
 {
-    const std::vector<double>& u = halfStep(state_.u, state_.uOld, dt, workU_);
-    const std::vector<double>& fine = halfStep(state_.fineScale, state_.fineScaleOld, dt, workFine_);
+    // what the assembly fills is free until then
+    const std::vector<double>& u = halfStep(state_.u, state_.uOld, dt, x_);
+    const std::vector<double>& fine = halfStep(state_.fineScale, state_.fineScaleOld, dt, force_);
     const std::vector<char>& isFixed = equation_.isPatchPressureFixed();
     if (isMoved_) setMeanCover(mesh_, start_, *cover_, during_);
     const Cover* during = isMoved_ ? &during_ : cover_;

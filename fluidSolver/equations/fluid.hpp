@@ -136,7 +136,6 @@ private:
     TimeScheme time_;
     std::vector<double> force_;         // nElements*dim
     std::vector<double> x_, q_;         // solution: nNodes*(dim+1), nDof per solid
-    std::vector<double> workU_, workFine_;
     std::vector<PairFlux> ghostFlux_;   // of the last accepted solve
     double liquidBefore_ = 0;
 };

@@ -7,7 +7,7 @@ namespace flotsam
 {
 
 VolumeFlux::VolumeFlux(const SimplexMesh& mesh, const NodeGraph& graph)
-    : mesh_(mesh), neighbour_(std::size_t(mesh.nElements)*(mesh.dim + 1), -1)
+    : mesh_(mesh), neighbour_(std::size_t(mesh.nElements)*(mesh.dim + 1), -1), atEdge_(mesh.nElements, 0)
 {
     const int n = mesh.dim + 1;
     for (const InteriorFace& face : graph.faces)
@@ -17,6 +17,13 @@ VolumeFlux::VolumeFlux(const SimplexMesh& mesh, const NodeGraph& graph)
             const int* nodes = &mesh.elements[std::size_t(face.element[side])*n];
             const auto corner = std::find(nodes, nodes + n, face.opposite[side]) - nodes;
             neighbour_[std::size_t(face.element[side])*n + corner] = face.element[1 - side];
+        }
+    }
+    for (std::size_t k = 0; k < neighbour_.size(); ++k)
+    {
+        if (neighbour_[k] < 0)
+        {
+            atEdge_[k/n] |= char(1 << k%n);
         }
     }
 }
@@ -55,8 +62,7 @@ void VolumeFlux::addOuterFaces(int e, const std::vector<double>& u, const Cover*
     constexpr double factor = dim == 2 ? 1./24 : 1./54;
     for (int c = 0; c < n; ++c)
     {
-        const int other = neighbour_[std::size_t(e)*n + c];
-        if (other >= 0 && (!cover || cover->state[other] == ElementState::Fluid))
+        if (!isOuterFace(e, c, cover))
         {
             continue;
         }
@@ -124,7 +130,10 @@ void VolumeFlux::ofElement(int e, const std::vector<double>& u, const std::vecto
         }
         flux[k] = mesh_.volume[e]/n*s;
     }
-    addOuterFaces<dim>(e, u, cover, flux);
+    if (cover || atEdge_[e])
+    {
+        addOuterFaces<dim>(e, u, cover, flux);
+    }
 }
 
 template void VolumeFlux::ofElement<2>(int, const std::vector<double>&, const std::vector<double>&, const Cover*, double*) const;

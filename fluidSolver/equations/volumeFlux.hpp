@@ -57,6 +57,9 @@ class VolumeFlux
 public:
     VolumeFlux(const SimplexMesh& mesh, const NodeGraph& graph);
 
+    /// No cover will ever be given: what only covers need is freed.
+    void forgetNeighbours() { std::vector<int>().swap(neighbour_); }
+
     /// Fluxes a -> b of all pairs of corners of element e [m^dim/s]; zero in a solid element.
     /// fineScale may be empty, cover null.
     template<int dim> void ofElement(int e, const std::vector<double>& u, const std::vector<double>& fineScale,
@@ -68,8 +71,14 @@ public:
 private:
     template<int dim> void addOuterFaces(int e, const std::vector<double>& u, const Cover* cover, double* flux) const;
 
+    bool isOuterFace(int e, int corner, const Cover* cover) const
+    {
+        return (atEdge_[e] >> corner & 1) || (cover && cover->state[neighbour_[std::size_t(e)*(mesh_.dim + 1) + corner]] != ElementState::Fluid);
+    }
+
     const SimplexMesh& mesh_;
     std::vector<int> neighbour_;    // nElements*(dim+1): element across the face opposite to a corner, -1 none
+    std::vector<char> atEdge_;      // nElements, a bit per corner: no element across the face opposite to it
 };
 
 } // namespace flotsam

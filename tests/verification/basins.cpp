@@ -71,16 +71,17 @@ struct Tank
         return gate;
     }
 
-    /// Mean of one side's gas, by nodes.
+    /// Mean of one side's gas, by nodes and their shares of gas.
     double gasPressure(const FlowState& state, bool isLeft) const
     {
         double sums[2] = {};
         for (int i = 0; i < mesh.nOwned; ++i)
         {
             const double* x = &mesh.x[2*std::size_t(i)];
-            if (state.alpha[i] > 0.01 || std::abs(x[0] - middle) < 0.2 || (x[0] < middle) != isLeft) continue;
-            sums[0] += 1;
-            sums[1] += state.p[i];
+            if (std::abs(x[0] - middle) < 0.2 || (x[0] < middle) != isLeft) continue;
+            const double edge = (x[0] < 0.01 || x[0] > 1.99 ? 0.5 : 1)*(x[1] < 0.01 || x[1] > 0.99 ? 0.5 : 1), gas = edge*(1 - state.alpha[i]);
+            sums[0] += gas;
+            sums[1] += gas*state.p[i];
         }
         halo.sum(sums, 2);
         return sums[1]/sums[0];
