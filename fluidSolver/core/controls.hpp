@@ -44,7 +44,7 @@ struct NumericsControls
     int gravityLayers = 6;          ///< rings over which interface planes are handed on
     int gasDepth = 0;               ///< rings of elements around the water in which the gas is computed; 0: everywhere
     // linear solver
-    double tolerance = 1e-4;        ///< residual of the scaled system over its right-hand side
+    double tolerance = 3e-5;        ///< residual of the scaled system over its right-hand side
     double forceTolerance = 1e-4;   ///< with solids: the same over the forces that change the motion
     int maxIterations = 200;
     int restart = 30;
