@@ -164,11 +164,18 @@ void Fluid::extendPhase()
     halo_.update(state_.alpha, 1);
 }
 
+std::vector<double> Fluid::nodalDensity() const
+{
+    std::vector<double> rho(mesh_.nNodes);
+    for (int i = 0; i < mesh_.nNodes; ++i) rho[i] = density(fluid_, controls_, fluid_.isTwoPhase ? state_.alpha[i] : 1);
+    return rho;
+}
+
 /// Gravity per element, into force_; cover: of what is computed.
 void Fluid::setGravity(const Cover* cover)
 {
-    std::vector<double> rho(mesh_.nNodes), ofSurface;
-    for (int i = 0; i < mesh_.nNodes; ++i) rho[i] = density(fluid_, controls_, fluid_.isTwoPhase ? state_.alpha[i] : 1);
+    const std::vector<double> rho = nodalDensity();
+    std::vector<double> ofSurface;
     const bool isBalanced = fluid_.isTwoPhase && controls_.balancedGravity;
     if (isBalanced)
     {
@@ -192,11 +199,10 @@ void Fluid::findBasins(const Cover* cover)
 
 void Fluid::setPocketPressures()
 {
-    std::vector<double> rho(mesh_.nNodes);
-    for (int i = 0; i < mesh_.nNodes; ++i) rho[i] = density(fluid_, controls_, fluid_.isTwoPhase ? state_.alpha[i] : 1);
+    if (!pockets_.areAny()) return;
     std::array<double, 3> gravity{};
     for (int d = 0; d < mesh_.dim; ++d) gravity[d] = fluid_.gravity[mesh_.axes[d]];
-    pockets_.setPressures(state_.p, rho, gravity);
+    pockets_.setPressures(state_.p, nodalDensity(), gravity);
 }
 
 void Fluid::assemble()

@@ -98,6 +98,7 @@ private:
     void moveInactiveNodes();
     void extendPhase();
     void findSurface();
+    std::vector<double> nodalDensity() const;
     void setGravity(const Cover* cover);
     void findBasins(const Cover* cover);
     void setPocketPressures();

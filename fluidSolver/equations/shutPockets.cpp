@@ -31,7 +31,6 @@ void ShutPockets::find(const Cover& cover, const Basins& basins, const std::vect
 
 void ShutPockets::setPressures(const std::vector<double>& p, const std::vector<double>& rho, const std::array<double, 3>& gravity)
 {
-    if (isIn_.empty()) return;
     const int dim = mesh_.dim;
     pressure_ = p;
     extendIntoSolids(mesh_, graph_, halo_, isOutside_, pressure_);

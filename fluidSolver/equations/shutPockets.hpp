@@ -22,9 +22,10 @@ public:
     void find(const Cover& cover, const Basins& basins, const std::vector<char>& isPressureFixed);
 
     /// Their pressures: p (nNodes) of the fluid nearest around, through the solids, with the weight of the density rho (nNodes) from there. gravity: in
-    /// the mesh's axes. After find(). Collective.
+    /// the mesh's axes. After find(), where there are any. Collective.
     void setPressures(const std::vector<double>& p, const std::vector<double>& rho, const std::array<double, 3>& gravity);
 
+    bool areAny() const { return !isIn_.empty(); }      ///< on any rank
     bool isNode(int i) const { return !isIn_.empty() && isIn_[i]; }     ///< of a pocket
     double pressure(int i) const { return pressure_[i]; }               ///< [Pa]
 
