@@ -11,7 +11,7 @@ namespace flotsam
 namespace
 {
 
-constexpr double leastViscousNumber = 0.5;   // from there on a cycle for each component costs less than the iterations it saves
+constexpr double leastViscousNumber = 1;   // from there on a cycle for each component costs less than the iterations it saves, also in a smooth flow
 
 } // namespace
 
