@@ -71,15 +71,16 @@ struct Tank
         return gate;
     }
 
-    /// Mean of one side's gas, by nodes and their shares of gas.
+    /// Mean of one side's gas outside of the gate.
     double gasPressure(const FlowState& state, bool isLeft) const
     {
+        const DualCells cells(mesh);
         double sums[2] = {};
         for (int i = 0; i < mesh.nOwned; ++i)
         {
             const double* x = &mesh.x[2*std::size_t(i)];
             if (std::abs(x[0] - middle) < 0.2 || (x[0] < middle) != isLeft) continue;
-            const double edge = (x[0] < 0.01 || x[0] > 1.99 ? 0.5 : 1)*(x[1] < 0.01 || x[1] > 0.99 ? 0.5 : 1), gas = edge*(1 - state.alpha[i]);
+            const double gas = cells.volume(i)*(1 - state.alpha[i]);
             sums[0] += gas;
             sums[1] += gas*state.p[i];
         }

@@ -82,15 +82,15 @@ TEST_CASE("a two-fluid tank on an irregular mesh stays at rest") { CHECK(speedsA
 TEST_CASE("so it does around a cylinder at the surface") { CHECK(speedsAfter(2, 20, true, 0.1)[0] < 1e-6); }
 TEST_CASE("and in 3D") { CHECK(speedsAfter(3, 10, false, 0.1)[0] < 1e-6); }
 TEST_CASE("and in 3D around a cylinder that pierces the surface") { CHECK(speedsAfter(3, 10, true, 0.1)[0] < 1e-6); }
-// Smooth pressures that a solve leaves must not grow from step to step: speeds in proportion to the tolerance, a second later the same.
+// Smooth pressures that a solve leaves must not grow from step to step, in the gas neither: speeds in proportion to the tolerance, a second later the same.
 TEST_CASE("and on a fine mesh, solved as runs are")
 {
     const double tolerance = NumericsControls().tolerance;
-    CHECK(speedsAfter(2, 80, false, 0.4, 0, tolerance)[0] < 1e-5);
-    CHECK(speedsAfter(2, 80, false, 1.2, 0, tolerance)[0] < 1e-5);
-    CHECK(speedsAfter(2, 80, true, 0.4, 0, tolerance)[0] < 1e-5);
-    CHECK(speedsAfter(2, 80, false, 0.4, 0, 0.1*tolerance)[0] < 1e-6);
-    CHECK(speedsAfter(2, 80, true, 0.4, 0, 0.1*tolerance)[0] < 1e-6);
+    CHECK(speedsAfter(2, 80, false, 0.4, 0, tolerance)[1] < 1e-5);
+    CHECK(speedsAfter(2, 80, false, 1.2, 0, tolerance)[1] < 1e-5);
+    CHECK(speedsAfter(2, 80, true, 0.4, 0, tolerance)[1] < 1e-5);
+    CHECK(speedsAfter(2, 80, false, 0.4, 0, 0.1*tolerance)[1] < 1e-6);
+    CHECK(speedsAfter(2, 80, true, 0.4, 0, 0.1*tolerance)[1] < 1e-6);
 }
 // nodes of cut elements lie more than h from the surface
 TEST_CASE("and where the surface crosses the mesh's lines at an angle")

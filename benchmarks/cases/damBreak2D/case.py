@@ -43,7 +43,7 @@ def prepare(_run, do):
 
 def shares(folder, n):
     """T and alpha of the cells, rows from the bottom, at every written time."""
-    times = sorted(t for t in os.listdir(folder) if t[0].isdigit() and not t.endswith(".orig") and float(t) > 0)
+    times = (t for t in os.listdir(folder) if t[0].isdigit() and not t.endswith(".orig") and float(t) > 0)
     return [(float(t) * np.sqrt(2 * GRAVITY / COLUMN), foam.field(os.path.join(folder, t, "alpha.water")).reshape(9 * n // 4, 6 * n))
             for t in sorted(times, key=float)]
 
