@@ -23,6 +23,7 @@ flotsam_test(basins verification SOURCES verification/basins.cpp
   LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
 flotsam_test(squeezedFluid verification SOURCES verification/squeezedFluid.cpp
   LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
+flotsam_test(velocityChoice unit SOURCES unit/velocityChoice.cpp LIBRARIES flotsam_algebra)
 flotsam_test(viscousSolve verification SOURCES verification/viscousSolve.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(heldBody verification SOURCES verification/heldBody.cpp

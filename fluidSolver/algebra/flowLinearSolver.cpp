@@ -81,7 +81,7 @@ struct FlowLinearSolver::Implementation
     bool isNewMatrix = true;            // of the system: FlowSystem::isNewMatrix
 
     Implementation(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& h, const NumericsControls& c)
-    :   halo(h), controls(c), system(mesh, graph, h)
+    :   halo(h), controls(c), system(mesh, graph, h, c.restart)
     {}
 
     ~Implementation() { destroyKrylov(); }
@@ -148,6 +148,34 @@ struct FlowLinearSolver::Implementation
         return std::max(std::min(wanted, (isNewMatrix ? startReduction : repeatReduction)*first), smallest);
     }
 
+    /// Iterations that the present preconditioner gets after those of earlier attempts. Bodies that shift in a jam can make an old hierarchy fail all at once: it gets one cycle of GMRES.
+    int iterationsOfAttempt(int before)
+    {
+        int most = controls.maxIterations;
+        if (!system.pressure().isNew()) most = std::min(most, controls.restart);
+        const int limit = system.choice().limit();
+        return limit > 0 ? std::min(most, std::max(limit - before, 1)) : most;
+    }
+
+    /// What a solve has not converged with after `iterations` gives way to what is better; false: there is nothing better. Collective.
+    bool improvePreconditioner(int iterations)
+    {
+        const int limit = system.choice().limit();
+        const bool isTooSlow = limit > 0 && iterations >= limit;
+        if (system.pressure().isNew() && !isTooSlow) return false;
+        if (isTooSlow) system.choice().giveUpDiagonal();
+        system.renewHierarchies();
+        return true;
+    }
+
+    /// Iterations of a solve: earlier attempts, last one.
+    void count(int before, int last)
+    {
+        // a solve that only follows a new contact impulse starts near its end: it says nothing about preconditioners
+        if (isNewMatrix || before > 0) system.pressure().countIterations(last);
+        if (isNewMatrix && before == 0) system.choice().count(last);
+    }
+
     /// GMRES on the residual in rhs, down to `target`; adds what it finds to x and q. norm: of the right-hand side.
     SolveReport iterate(std::vector<double>& x, std::vector<double>& q, double target, double norm, int maxIterations)
     {
@@ -181,12 +209,14 @@ FlowLinearSolver::~FlowLinearSolver() = default;
 void FlowLinearSolver::forgetPreconditioner()
 {
     impl_->system.pressure().forget();
+    impl_->system.choice().forget();
 }
 
 void FlowLinearSolver::setSystem(const FlowSystem& system)
 {
     NoFloatingPointTraps guard;
     impl_->isNewMatrix = system.isNewMatrix;
+    if (system.isNewMatrix) impl_->system.chooseVelocities(system);
     // the set-up of a hierarchy and the vectors of a solve, which hard solves have made many, need not be there at once
     if (system.isNewMatrix && impl_->system.pressure().isWorn()) impl_->destroyKrylov();
     impl_->system.set(system);
@@ -211,25 +241,19 @@ SolveReport FlowLinearSolver::solve(std::vector<double>& x, std::vector<double>&
         report.hasConverged = true;
         return report;
     }
-    // Bodies that shift in a jam can make an old hierarchy fail all at once: it gets one cycle of GMRES
-    const bool isOld = !me.system.pressure().isNew();
-    // a solve that only follows a new contact impulse starts near its end: it says nothing about the hierarchy's age
-    bool isTelling = me.isNewMatrix;
-    report = me.iterate(x, q, target, norm, isOld ? std::min(me.controls.restart, me.controls.maxIterations) : me.controls.maxIterations);
+    report = me.iterate(x, q, target, norm, me.iterationsOfAttempt(0));
     report.initial = norm > 0 ? first/norm : 0;
-    if (isOld && !report.hasConverged)
+    int before = 0;     // iterations of earlier attempts
+    while (!report.hasConverged && me.improvePreconditioner(before + report.iterations))
     {
-        me.system.renewPressure();
         me.setResidual(x, q, first, norm);
-        const int before = report.iterations;
+        before += report.iterations;
         const double initial = report.initial;
-        report = me.iterate(x, q, target, norm, me.controls.maxIterations);
-        me.system.pressure().countIterations(report.iterations);
-        isTelling = false;
-        report.iterations += before;
+        report = me.iterate(x, q, target, norm, me.iterationsOfAttempt(before));
         report.initial = initial;
     }
-    if (isTelling) me.system.pressure().countIterations(report.iterations);
+    me.count(before, report.iterations);
+    report.iterations += before;
     report.rebuiltPreconditioner = me.isNewMatrix && me.system.pressure().isNew();
     report.unbalancedVolume = unbalanced;
     return report;

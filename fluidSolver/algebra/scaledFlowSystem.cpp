@@ -8,15 +8,8 @@
 namespace flotsam
 {
 
-namespace
-{
-
-constexpr double leastViscousNumber = 1;   // from there on a cycle for each component costs less than the iterations it saves, also in a smooth flow
-
-} // namespace
-
-ScaledFlowSystem::ScaledFlowSystem(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo)
-:   mesh_(mesh), graph_(graph), halo_(halo), B_(mesh.dim + 1), velocity_(graph, mesh.nOwned, mesh.dim), pressure_(mesh, graph, halo), solids_(halo)
+ScaledFlowSystem::ScaledFlowSystem(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, int restart)
+:   mesh_(mesh), graph_(graph), halo_(halo), B_(mesh.dim + 1), velocity_(graph, mesh.nOwned, mesh.dim), choice_(restart), pressure_(mesh, graph, halo), solids_(halo)
 {
     const std::size_t n = mesh.nOwned;
     scale_.resize(n*B_);
@@ -25,6 +18,12 @@ ScaledFlowSystem::ScaledFlowSystem(const SimplexMesh& mesh, const NodeGraph& gra
     pressureLocal_.resize(mesh.nNodes);
     pressureRows_.resize(n);
     gradient_.resize(n*mesh.dim);
+}
+
+void ScaledFlowSystem::chooseVelocities(const FlowSystem& system)
+{
+    choice_.beginStep(system.viscousNumber);
+    if (choice_.usesCycles() != bool(viscous_)) pressure_.forget(); // iterations with other velocities say nothing about its age
 }
 
 void ScaledFlowSystem::set(const FlowSystem& system)
@@ -40,18 +39,14 @@ void ScaledFlowSystem::set(const FlowSystem& system)
 void ScaledFlowSystem::updateHierarchies()
 {
     for (int i = 0; i < mesh_.nOwned; ++i) pressureRows_[i] = scale_[std::size_t(i)*B_ + B_ - 1];
+    if (!choice_.usesCycles()) viscous_.reset();    // before the pressure's needs memory
     pressure_.update(*system_, pressureRows_);
-    updateViscousBlock();
+    if (choice_.usesCycles()) updateViscousBlock();
 }
 
 /// As old as the pressure's hierarchy.
 void ScaledFlowSystem::updateViscousBlock()
 {
-    if (system_->viscousNumber < leastViscousNumber)
-    {
-        viscous_.reset();
-        return;
-    }
     const bool isNew = !viscous_;
     if (isNew) viscous_ = std::make_unique<ViscousBlock>(mesh_, graph_, halo_);
     if (isNew || pressure_.isNew()) viscous_->build(*system_, scale_);
@@ -73,7 +68,7 @@ void ScaledFlowSystem::subtractFromVelocity(const double* gradient)
     else velocity_.subtractDiagonal(gradient, local_.data());
 }
 
-void ScaledFlowSystem::renewPressure()
+void ScaledFlowSystem::renewHierarchies()
 {
     pressure_.forget();
     updateHierarchies();

@@ -7,6 +7,7 @@
 #include "algebra/pressureHierarchy.hpp"
 #include "algebra/solidUnknowns.hpp"
 #include "algebra/velocityBlock.hpp"
+#include "algebra/velocityChoice.hpp"
 #include "algebra/viscousBlock.hpp"
 
 namespace flotsam
@@ -15,9 +16,12 @@ namespace flotsam
 class ScaledFlowSystem
 {
 public:
-    ScaledFlowSystem(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo);
+    /// restart: iterations of a GMRES cycle.
+    ScaledFlowSystem(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, int restart);
 
-    /// Collective. Diagonal blocks of the system (kept by reference) and, when it pays, a new pressure hierarchy.
+    /// Before set(): what the velocities of the new step's system are preconditioned by.
+    void chooseVelocities(const FlowSystem& system);
+    /// Collective. Diagonal blocks of the system (kept by reference) and, when it pays, new hierarchies.
     void set(const FlowSystem& system);
 
     bool hasSolids() const { return !system_->solids.empty(); }
@@ -37,8 +41,9 @@ public:
     void addTo(std::vector<double>& x, std::vector<double>& q, const double* solution);
 
     PressureHierarchy& pressure() { return pressure_; }
-    /// A new pressure hierarchy at once. Collective.
-    void renewPressure();
+    VelocityChoice& choice() { return choice_; }
+    /// New hierarchies at once. Collective.
+    void renewHierarchies();
 
 private:
     template<int D> void setDiagonals();
@@ -60,7 +65,8 @@ private:
     const int B_;
     const FlowSystem* system_ = nullptr;
     VelocityBlock velocity_;
-    std::unique_ptr<ViscousBlock> viscous_; // instead of velocity_ where viscosity rules; null: nowhere
+    VelocityChoice choice_;
+    std::unique_ptr<ViscousBlock> viscous_; // instead of velocity_ when it is the choice
     PressureHierarchy pressure_;
     SolidUnknowns solids_;
 

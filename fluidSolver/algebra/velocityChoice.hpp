@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Diagonal blocks (velocityBlock.hpp) or V-cycles (viscousBlock.hpp) for the velocities: what has cost less, by the iterations that solves take and not by clocks, so
+/// that a run can be repeated. A moving start at a viscous number of 1 takes diagonal blocks many times the iterations, a smooth flow at the same number hardly more.
+#pragma once
+
+namespace flotsam
+{
+
+class VelocityChoice
+{
+public:
+    /// restart: iterations of a GMRES cycle.
+    explicit VelocityChoice(int restart) : restart_(restart) {}
+
+    /// A new step's system; viscousNumber: FlowSystem::viscousNumber.
+    void beginStep(double viscousNumber);
+    bool usesCycles() const { return usesCycles_; }
+
+    /// Iterations after which a solve with diagonal blocks goes on with cycles; 0: never.
+    int limit() const;
+    /// A solve has reached the limit: cycles from now on.
+    void giveUpDiagonal();
+    /// Iterations that the first solve of a step took with the present choice.
+    void count(int iterations);
+
+    /// What comes depends on the next system alone.
+    void forget() { *this = VelocityChoice(restart_); }
+
+private:
+    void choose(bool cycles);
+    double worth() const;
+
+    int restart_;
+    bool canPay_ = false;       // cycles, at the present viscous number
+    bool usesCycles_ = false;
+    bool isFirst_ = true;       // no system seen
+    int nSolves_ = 0;           // counted with the present choice
+    double cost_ = 0;           // their running mean, in iterations with diagonal blocks
+    double costOfCycles_ = 0;   // the last one known; 0: none
+    int wait_ = 4;              // solves with cycles before diagonal blocks are tried; doubled by every trial
+};
+
+} // namespace flotsam
