@@ -102,7 +102,8 @@ private:
     void setGravity(const Cover* cover);
     void findBasins(const Cover* cover);
     void setPocketPressures();
-    void setFirstGuess();
+    void setStart(double share, std::vector<double>& x) const;
+    void setSolidVelocities();
     TransportReport advancePhase(double dt);
     double levelTolerance() const;
     /// Over which the phase field is a mean; null: its values are the nodes'.
