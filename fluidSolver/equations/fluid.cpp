@@ -73,11 +73,19 @@ const std::vector<double>& Fluid::halfStep(const std::vector<double>& now, const
     return work;
 }
 
+/// The last solution and gravity are void from here until they are computed anew: they lend their memory, and are left empty.
 TransportReport Fluid::advancePhase(double dt)
 {
-    // what the assembly fills is free until then
     const std::vector<double>& u = halfStep(state_.u, state_.uOld, dt, x_);
     const std::vector<double>& fine = halfStep(state_.fineScale, state_.fineScaleOld, dt, force_);
+    const TransportReport report = transportPhase(dt, u, fine);
+    x_.clear();
+    force_.clear();
+    return report;
+}
+
+TransportReport Fluid::transportPhase(double dt, const std::vector<double>& u, const std::vector<double>& fine)
+{
     const std::vector<char>& isFixed = equation_.isPatchPressureFixed();
     if (isMoved_) setMeanCover(mesh_, start_, *cover_, during_);
     const Cover* during = isMoved_ ? &during_ : cover_;

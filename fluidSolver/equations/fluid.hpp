@@ -105,6 +105,7 @@ private:
     void setStart(double share, std::vector<double>& x) const;
     void setSolidVelocities();
     TransportReport advancePhase(double dt);
+    TransportReport transportPhase(double dt, const std::vector<double>& u, const std::vector<double>& fine);
     double levelTolerance() const;
     /// Over which the phase field is a mean; null: its values are the nodes'.
     const DualCells* profileCells() const { return supg_ ? nullptr : &transport_.cells(); }
@@ -136,8 +137,8 @@ private:
     ShutPockets pockets_;
     const std::vector<Solid>* solids_ = nullptr;
     TimeScheme time_;
-    std::vector<double> force_;         // nElements*dim
-    std::vector<double> x_, q_;         // solution: nNodes*(dim+1), nDof per solid
+    std::vector<double> force_;         // nElements*dim; empty between advancePhase() and setGravity()
+    std::vector<double> x_, q_;         // solution: nNodes*(dim+1), nDof per solid; x_ is empty between advancePhase() and solve()
     std::vector<PairFlux> ghostFlux_;   // of the last accepted solve
     double liquidBefore_ = 0;
 };
