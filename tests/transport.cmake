@@ -5,6 +5,7 @@ target_link_libraries(flotsam_transport_support PUBLIC flotsam_equations flotsam
 flotsam_test(dualCells unit SOURCES unit/dualCells.cpp LIBRARIES flotsam_equations flotsam_test_support)
 flotsam_test(filmFit unit SOURCES unit/filmFit.cpp LIBRARIES flotsam_equations flotsam_test_support)
 flotsam_test(frontFit unit SOURCES unit/frontFit.cpp LIBRARIES flotsam_equations flotsam_test_support)
+flotsam_test(profileMeans unit SOURCES unit/profileMeans.cpp LIBRARIES flotsam_equations)
 flotsam_test(startProfile unit SOURCES unit/startProfile.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2 3)
 flotsam_test(zalesak verification SOURCES verification/zalesak.cpp LIBRARIES flotsam_transport_support)
 flotsam_test(vortex verification SOURCES verification/vortex.cpp LIBRARIES flotsam_transport_support)

@@ -2,6 +2,7 @@
 /// The element loops of the dual-cell transport: face values, model flux.
 #include "equations/dualCellTransport.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace flotsam
@@ -58,18 +59,75 @@ struct FaceGeometry
     }
 };
 
-/// Mean alpha of a film over what passes a face during a step.
-template<int dim>
-double filmSweptMean(const NodeProfile& film, const double* offset, const double* velocity, double dt)
+/// Faces with a profile upwind, of which the means over what passes during the step are computed together.
+class SweptFaces
 {
-    double direction[dim];
-    const double across = film.steepness*bentDistance<dim>(film, offset, direction), sweptAcross = film.steepness*dt*dot<dim>(direction, velocity);
-    const double wedge = film.steepness*dot<dim>(film.taper, offset), sweptWedge = film.steepness*dt*dot<dim>(film.taper, velocity);
-    const double upper = sweptMean(film.value + wedge - across, sweptWedge - sweptAcross);
-    const double lower = sweptMean(film.otherValue + wedge + across, sweptWedge + sweptAcross);
-    const double share = std::max(0., upper + lower - 1);
-    return film.isGas ? 1 - share : share;
-}
+public:
+    struct Face
+    {
+        double* antiFlux;
+        double volume, upwind;      ///< that passes, and the upwind value of alpha
+        const NodeProfile* film;    ///< null: one front
+    };
+
+    ~SweptFaces() { evaluate(); }
+
+    void addFront(const Face& face, double psi, double swept)
+    {
+        addMean(psi, swept);
+        addFace(face);
+    }
+
+    template<int dim>
+    void addFilm(const Face& face, const double* offset, const double* velocity, double dt)
+    {
+        const NodeProfile& film = *face.film;
+        double direction[dim];
+        const double across = film.steepness*bentDistance<dim>(film, offset, direction), sweptAcross = film.steepness*dt*dot<dim>(direction, velocity);
+        const double wedge = film.steepness*dot<dim>(film.taper, offset), sweptWedge = film.steepness*dt*dot<dim>(film.taper, velocity);
+        addMean(film.value + wedge - across, sweptWedge - sweptAcross);
+        addMean(film.otherValue + wedge + across, sweptWedge + sweptAcross);
+        addFace(face);
+    }
+
+private:
+    static constexpr int most = 128;
+
+    void addMean(double psi, double swept)
+    {
+        psi_[nMeans_] = psi;
+        swept_[nMeans_++] = swept;
+    }
+
+    void addFace(const Face& face)
+    {
+        faces_[nFaces_++] = face;
+        if (nMeans_ > most - 2) evaluate();
+    }
+
+    void evaluate()
+    {
+        double mean[most];
+        sweptMeans(psi_, swept_, nMeans_, mean);
+        const double* next = mean;
+        for (int k = 0; k < nFaces_; ++k)
+        {
+            const Face& face = faces_[k];
+            double value = *next++;
+            if (face.film)
+            {
+                const double share = std::max(0., value + *next++ - 1);
+                value = face.film->isGas ? 1 - share : share;
+            }
+            *face.antiFlux = face.volume*(value - face.upwind);
+        }
+        nMeans_ = nFaces_ = 0;
+    }
+
+    int nMeans_ = 0, nFaces_ = 0;
+    double psi_[most], swept_[most];
+    Face faces_[most];
+};
 
 } // namespace
 
@@ -80,6 +138,7 @@ void DualCellTransport::addFaceValues(const Arguments& in)
     using Pairs = CornerPairs<dim>;
     constexpr int n = dim + 1;
     antiFlux_.resize(active_.size()*Pairs::count);
+    SweptFaces faces;
     for (std::size_t k = 0; k < active_.size(); ++k)
     {
         const int e = stored_[active_[k]];
@@ -89,10 +148,12 @@ void DualCellTransport::addFaceValues(const Arguments& in)
         double* antiFlux = &antiFlux_[k*Pairs::count];
         const FaceGeometry<dim> geometry(mesh_, in.u, nodes);
 
+        ProfileKind kinds[n];
         bool hasRoof = false;
         for (int a = 0; a < n; ++a)
         {
-            hasRoof = hasRoof || reconstruction_.profile(nodes[a]).kind == NodeProfile::Kind::Roof;
+            kinds[a] = reconstruction_.kind(nodes[a]);
+            hasRoof = hasRoof || kinds[a] == ProfileKind::Roof;
         }
         double gradient[dim] = {}, gradientLength = 1e-30;
         if (hasRoof)
@@ -111,39 +172,38 @@ void DualCellTransport::addFaceValues(const Arguments& in)
         for (int p = 0; p < Pairs::count; ++p)
         {
             const int a = Pairs::first[p], b = Pairs::second[p], upwind = flux[p] > 0 ? a : b;
-            const NodeProfile& profile = reconstruction_.profile(nodes[upwind]);
-            if (profile.kind == NodeProfile::Kind::Tail)
+            const int i = nodes[upwind];
+            const ProfileKind kind = kinds[upwind];
+            const SweptFaces::Face face{&antiFlux[p], dt*flux[p], upwind_[i], nullptr};
+            if (kind == ProfileKind::Tail)
             {
-                const double own = in.alpha[nodes[upwind]], most = std::min(own, 1 - own);
-                antiFlux[p] = dt*flux[p]*(own + std::clamp(in.alpha[nodes[upwind == a ? b : a]] - own, -most, most) - upwind_[nodes[upwind]]);
+                const double own = in.alpha[i], most = std::min(own, 1 - own);
+                antiFlux[p] = face.volume*(own + std::clamp(in.alpha[nodes[a + b - upwind]] - own, -most, most) - face.upwind);
                 continue;
             }
-            if (profile.kind == NodeProfile::Kind::Bulk)
+            if (kind == ProfileKind::Bulk)
             {
-                antiFlux[p] = dt*flux[p]*(in.alpha[nodes[upwind]] - upwind_[nodes[upwind]]);
+                antiFlux[p] = face.volume*(in.alpha[i] - face.upwind);
                 continue;
             }
+            const NodeProfile& profile = reconstruction_.profile(i);
             double offset[dim], velocity[dim];
             geometry.evaluate(a, b, upwind, offset, velocity);
-            if (profile.kind == NodeProfile::Kind::Film)
+            if (kind == ProfileKind::Film)
             {
-                antiFlux[p] = dt*flux[p]*(filmSweptMean<dim>(profile, offset, velocity, dt) - upwind_[nodes[upwind]]);
-                continue;
+                faces.addFilm<dim>({face.antiFlux, face.volume, face.upwind, &profile}, offset, velocity, dt);
             }
-            double psi, swept;
-            if (profile.kind == NodeProfile::Kind::Front)
+            else if (kind == ProfileKind::Front)
             {
                 double direction[dim];
-                psi = profile.value + profile.steepness*bentDistance<dim>(profile, offset, direction);
-                swept = profile.steepness*dt*dot<dim>(direction, velocity);
+                const double psi = profile.value + profile.steepness*bentDistance<dim>(profile, offset, direction);
+                faces.addFront(face, psi, profile.steepness*dt*dot<dim>(direction, velocity));
             }
             else
             {
                 const double scale = std::min(profile.roofFactor, 1/gradientLength)*profile.steepness;
-                psi = profile.value + scale*dot<dim>(gradient, offset);
-                swept = scale*dt*dot<dim>(gradient, velocity);
+                faces.addFront(face, profile.value + scale*dot<dim>(gradient, offset), scale*dt*dot<dim>(gradient, velocity));
             }
-            antiFlux[p] = dt*flux[p]*(sweptMean(psi, swept) - upwind_[nodes[upwind]]);
         }
     }
 }
@@ -169,7 +229,7 @@ void DualCellTransport::addModelFlux(const Arguments& in)
         for (int a = 0; a < n; ++a)
         {
             const int i = nodes[a];
-            inBand = inBand || reconstruction_.profile(i).kind != NodeProfile::Kind::Bulk;
+            inBand = inBand || reconstruction_.kind(i) != ProfileKind::Bulk;
             width += width_[i]/n;
             for (int d = 0; d < dim; ++d)
             {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "equations/filmFit.hpp"
 
+#include "core/elementaryFunctions.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,8 +18,8 @@ constexpr double lastStep = 0.05;
 /// Most cells that are tried hold no film: by then, at the latest, a film's residual is this near to what is wanted.
 constexpr int trialIterations = 4;
 constexpr double hopeless = 5;
-/// Against its neighbours the fitted cell counts this much.
-constexpr double ownWeight = 4;
+/// Root of what the fitted cell counts against a neighbour.
+constexpr double rootOwnWeight = 2;
 /// A fit that has not been found when the steps are over makes no film: it would be another one with every change of the last digits.
 constexpr double firstDamping = 1e-3;
 /// Longest step of an unknown, and the thinnest film.
@@ -33,27 +35,21 @@ struct Layout : SurfaceShape<dim>
     static constexpr int thickness = S::size, taper = thickness + 1, size = taper + S::tangents;
 };
 
-/// Derivatives of the middle and of the thickness by their unknowns.
-template<int dim>
-void shapeFunctions(const double* along, double* shape)
+/// Mean of a film over a cell, as the growth exp((mean + 1) thickness), and its derivatives by middle and thickness (in units of 1/steepness).
+template<class Value>
+struct FilmMean { Value growth, byMiddle, byThickness; };
+
+/// thickness, growth: of the cell (SurfaceSample); upper, lower: exp(psi) of the film's two fronts at the cell's middle.
+template<class Value>
+[[gnu::always_inline]] inline FilmMean<Value> filmMean(const Value& thickness, const Value& growth, const Value& inverseGrowth, const Value& upper, const Value& lower)
 {
-    using L = Layout<dim>;
-    SurfaceShape<dim>::derivatives(along, shape);
-    shape[L::thickness] = 1;
-    std::copy_n(along, L::tangents, shape + L::taper);
+    const Value u1 = 1 + upper*growth, u2 = 1 + upper*inverseGrowth, l1 = 1 + lower*growth, l2 = 1 + lower*inverseGrowth;
+    const Value slopeUp = (u1 - u2)/(u1*u2*thickness), slopeLow = (l1 - l2)/(l1*l2*thickness);
+    return {u1/u2*(l1/l2), slopeUp - slopeLow, 0.5*(slopeUp + slopeLow)};
 }
 
-/// Mean of a film over a cell and its derivatives by middle and thickness (in units of 1/steepness).
-struct FilmMean { double value, byMiddle, byThickness; };
-
-FilmMean filmMean(const SurfaceSample& cell, double fromMiddle, double thickness, double steepness)
-{
-    const auto front = [&](double distance) { return std::exp(std::clamp(steepness*(0.5*thickness + distance), -150., 150.)); };
-    const double upper = front(-fromMiddle), lower = front(fromMiddle), inverse = 1/cell.growth;
-    const double u1 = 1 + upper*cell.growth, u2 = 1 + upper*inverse, l1 = 1 + lower*cell.growth, l2 = 1 + lower*inverse;
-    const double slopeUp = (u1 - u2)/(u1*u2*cell.thickness), slopeLow = (l1 - l2)/(l1*l2*cell.thickness);
-    return {std::log(u1/u2*(l1/l2))/cell.thickness - 1, slopeUp - slopeLow, 0.5*(slopeUp + slopeLow)};
-}
+/// Of exp(psi): with it the products above stay finite.
+constexpr double largestExponent = 150;
 
 template<int dim>
 double slopeLength(const double* tilt)
@@ -83,23 +79,129 @@ void startFilm(const SurfaceSample* samples, int nSamples, double* unknown)
     unknown[Layout<dim>::thickness] = liquid/nSamples*std::sqrt(12*(squares - sum*sum) + 1);
 }
 
+/// The cells in groups of nLanes; what the last one has too many counts nothing.
+template<int dim>
+class Cells
+{
+public:
+    using L = Layout<dim>;
+
+    Cells(const SurfaceSample* samples, int nSamples)
+    :   size_((nSamples + nLanes - 1)/nLanes)
+    {
+        for (int k = 0; k < size_*nLanes; ++k)
+        {
+            const SurfaceSample& s = samples[std::min(k, nSamples - 1)];
+            Group& group = groups_[k/nLanes];
+            const int lane = k % nLanes;
+            group.across[lane] = s.across;
+            for (int d = 0; d < L::tangents; ++d)
+            {
+                group.along[d][lane] = s.along[d];
+            }
+            group.thickness[lane] = s.thickness;
+            group.growth[lane] = s.growth;
+            group.alpha[lane] = s.alpha;
+            group.rootWeight[lane] = k == 0 ? rootOwnWeight : k < nSamples ? 1 : 0;
+        }
+        for (int g = 0; g < size_; ++g)
+        {
+            groups_[g].inverseGrowth = 1/groups_[g].growth;
+        }
+    }
+
+    int size() const { return size_; }
+
+    /// Roots of the weights times what the groups' means miss, and times the derivatives of these by the unknowns.
+    void evaluate(double scale, const double* unknown, Lanes* defect, Lanes (*derivatives)[maxGroups]) const
+    {
+        Lanes fronts[2*maxGroups], *upper = fronts, *lower = fronts + size_;
+        for (int g = 0; g < size_; ++g)
+        {
+            Lanes shape[L::size], fromMiddle = groups_[g].across, thickness = Lanes::Zero();
+            setShape(g, shape);
+            for (int i = 0; i < L::thickness; ++i)
+            {
+                fromMiddle -= shape[i]*unknown[i];
+            }
+            for (int i = L::thickness; i < L::size; ++i)
+            {
+                thickness += shape[i]*unknown[i];
+            }
+            upper[g] = (scale*(0.5*thickness - fromMiddle)).max(-largestExponent).min(largestExponent);
+            lower[g] = (scale*(0.5*thickness + fromMiddle)).max(-largestExponent).min(largestExponent);
+        }
+        exponentials(fronts[0].data(), 2*size_*nLanes);
+        for (int g = 0; g < size_; ++g)
+        {
+            const Group& cell = groups_[g];
+            const FilmMean<Lanes> mean = filmMean<Lanes>(cell.thickness, cell.growth, cell.inverseGrowth, upper[g], lower[g]);
+            const Lanes factor = scale*cell.rootWeight, byMiddle = factor*mean.byMiddle, byThickness = factor*mean.byThickness;
+            Lanes shape[L::size];
+            setShape(g, shape);
+            for (int i = 0; i < L::size; ++i)
+            {
+                derivatives[i][g] = shape[i]*(i < L::thickness ? byMiddle : byThickness);
+            }
+            defect[g] = mean.growth;
+        }
+        logarithms(defect[0].data(), size_*nLanes);
+        for (int g = 0; g < size_; ++g)
+        {
+            const Group& cell = groups_[g];
+            defect[g] = cell.rootWeight*(cell.alpha + 1 - defect[g]/cell.thickness);
+        }
+    }
+
+private:
+    struct Group { Lanes across, along[L::tangents], thickness, growth, inverseGrowth, alpha, rootWeight; };
+
+    /// Derivatives of middle and thickness by their unknowns.
+    [[gnu::always_inline]] void setShape(int g, Lanes* shape) const
+    {
+        const Lanes* along = groups_[g].along;
+        shape[0] = shape[L::thickness] = Lanes::Ones();
+        int k = L::curvature;
+        for (int d = 0; d < L::tangents; ++d)
+        {
+            shape[L::tilt + d] = shape[L::taper + d] = along[d];
+            for (int c = d; c < L::tangents; ++c)
+            {
+                shape[k++] = along[d]*along[c]*(c == d ? 0.5 : 1);
+            }
+        }
+    }
+
+    int size_;
+    Group groups_[maxGroups];
+};
+
 /// Normal equations of the fit at given unknowns.
 template<int dim>
 struct NormalEquations
 {
     using L = Layout<dim>;
-    double matrix[L::size][L::size] = {}, right[L::size] = {};
-    double cost = 0;        // what is minimised
-    double residual = 0;    // sum of squared differences of the other cells
+    double matrix[L::size][L::size], right[L::size];
+    double cost;        // what is minimised
+    double residual;    // sum of squared differences of the other cells
 
-    NormalEquations(const SurfaceSample* samples, int nSamples, double steepness, const double* unknown)
+    NormalEquations(const Cells<dim>& cells, double steepness, const double* unknown)
     {
         const double scale = steepness/slopeLength<dim>(&unknown[L::tilt]);
-        for (int k = 0; k < nSamples; ++k)
+        Lanes derivatives[L::size][maxGroups], defect[maxGroups];
+        cells.evaluate(scale, unknown, defect, derivatives);
+        for (int i = 0; i < L::size; ++i)
         {
-            const double square = addSample(samples[k], k == 0 ? ownWeight : 1, scale, unknown);
-            residual += k == 0 ? 0 : square;
+            right[i] = sumOfProducts(derivatives[i], defect, cells.size());
+            for (int j = i; j < L::size; ++j)
+            {
+                matrix[i][j] = sumOfProducts(derivatives[i], derivatives[j], cells.size());
+            }
         }
+        const double own = defect[0][0];
+        defect[0][0] = 0;
+        residual = sumOfProducts(defect, defect, cells.size());
+        cost = residual + own*own;
         for (int i = 0; i < L::size; ++i)
         {
             if (i < L::curvature || (i >= L::thickness && i < L::taper))
@@ -112,42 +214,15 @@ struct NormalEquations
         }
     }
 
-    /// Returns the squared difference.
-    double addSample(const SurfaceSample& sample, double weight, double scale, const double* unknown)
-    {
-        double shape[L::size], middle = 0, thickness = 0;
-        shapeFunctions<dim>(sample.along, shape);
-        for (int i = 0; i < L::size; ++i)
-        {
-            (i < L::thickness ? middle : thickness) += shape[i]*unknown[i];
-        }
-        const FilmMean mean = filmMean(sample, sample.across - middle, thickness, scale);
-        const double defect = sample.alpha - mean.value;
-        for (int i = 0; i < L::size; ++i)
-        {
-            shape[i] *= scale*(i < L::thickness ? mean.byMiddle : mean.byThickness);
-        }
-        for (int i = 0; i < L::size; ++i)
-        {
-            right[i] += weight*shape[i]*defect;
-            for (int j = i; j < L::size; ++j)
-            {
-                matrix[i][j] += weight*shape[i]*shape[j];
-            }
-        }
-        cost += weight*defect*defect;
-        return defect*defect;
-    }
-
     /// Levenberg-Marquardt's step. Returns the largest change.
     double step(double damping, double* unknown) const
     {
         double m[L::size][L::size], change[L::size];
-        std::copy_n(&matrix[0][0], L::size*L::size, &m[0][0]);
         std::copy_n(right, L::size, change);
         double largest = 0;
         for (int i = 0; i < L::size; ++i)
         {
+            std::copy(matrix[i] + i, matrix[i] + L::size, m[i] + i);
             m[i][i] += damping;
         }
         solveSymmetric(m, change);
@@ -174,14 +249,15 @@ Film<dim> fitFilm(const SurfaceSample* samples, int nSamples, double steepness, 
     using L = Layout<dim>;
     double best[L::size], damping = firstDamping;
     startFilm<dim>(samples, nSamples, best);
-    NormalEquations<dim> atBest(samples, nSamples, steepness, best);
+    const Cells<dim> cells(samples, nSamples);
+    NormalEquations<dim> atBest(cells, steepness, best);
     bool hasConverged = false;
     for (int iteration = 0; iteration < nIterations && !hasConverged; ++iteration)
     {
         double next[L::size];
         std::copy_n(best, L::size, next);
         const double change = atBest.step(damping, next);
-        const NormalEquations<dim> atNext(samples, nSamples, steepness, next);
+        const NormalEquations<dim> atNext(cells, steepness, next);
         const bool isBetter = atNext.cost <= atBest.cost;
         if (isBetter)
         {
@@ -218,8 +294,10 @@ void fillFilm(Film<dim>& film, const SurfaceSample& own, double steepness)
     double thickness = film.thickness + wedge, thinner = 0, thicker = 1e30;
     for (int iteration = 0; iteration < 30; ++iteration)
     {
-        const FilmMean mean = filmMean(own, own.across - middle, thickness, scale);
-        const double defect = own.alpha - mean.value;
+        const auto front = [scale](double distance) { return std::exp(std::clamp(scale*distance, -largestExponent, largestExponent)); };
+        const double fromMiddle = own.across - middle;
+        const FilmMean<double> mean = filmMean<double>(own.thickness, own.growth, 1/own.growth, front(0.5*thickness - fromMiddle), front(0.5*thickness + fromMiddle));
+        const double defect = own.alpha + 1 - std::log(mean.growth)/own.thickness;
         if (std::abs(defect) < 1e-9)
         {
             break;

@@ -130,7 +130,7 @@ TransportReport Fluid::beginStep(double dt)
     liquidBefore_ = keptLiquid();
     time_ = TimeScheme::bdf(controls_.timeOrder, dt, state_.dt);
     TransportReport report;
-    level_.clear();
+    isLevelKnown_ = false;
     if (fluid_.isTwoPhase)
     {
         evaluatePatches(state_.time + 0.5*dt);
@@ -152,10 +152,11 @@ double Fluid::levelTolerance() const
     return std::clamp(share*way, least, most);
 }
 
-/// Planes of the free surface. The level found is where a second search in the same step begins.
+/// Planes of the free surface. The level is found once a step.
 void Fluid::findSurface()
 {
-    level_ = surfaceLevel(mesh_, halo_, state_.alpha, transport_.width(), profileCells(), cover_, levelTolerance(), level_.empty() ? nullptr : &level_);
+    if (!isLevelKnown_) level_ = surfaceLevel(mesh_, halo_, state_.alpha, transport_.width(), profileCells(), cover_, levelTolerance());
+    isLevelKnown_ = true;
     planes_.propagate(mesh_, graph_, halo_, level_, controls_.gravityLayers, cover_, true);
 }
 
@@ -164,13 +165,16 @@ void Fluid::findSurface()
 void Fluid::extendPhase()
 {
     extendIntoSolids(mesh_, graph_, halo_, *cover_, state_.alpha);
+    isLevelKnown_ = false;
     findSurface();
     for (int i : planes_.nodes())
     {
-        if (!cover_->isActiveNode[i])
-            state_.alpha[i] = profileSlab(profileCells(), i, planes_.normal(i), planes_.distance(i), transport_.width()[i]).mean();
+        if (cover_->isActiveNode[i]) continue;
+        state_.alpha[i] = profileSlab(profileCells(), i, planes_.normal(i), planes_.distance(i), transport_.width()[i]).mean();
+        level_[i] = planes_.distance(i);
     }
     halo_.update(state_.alpha, 1);
+    halo_.update(level_, 1);
 }
 
 std::vector<double> Fluid::nodalDensity() const

@@ -127,7 +127,8 @@ private:
     MassFluxes massFluxes_;         // of the last step; surfaceTimeOrder 2
     std::unique_ptr<PhaseFieldSupg> supg_;  // the paper's form, when selected
     InterfacePlanes planes_;
-    std::vector<double> level_;             // of the last search in this step; empty: none yet
+    std::vector<double> level_;             // of the last search
+    bool isLevelKnown_ = false;             // the search was in this step
     const Cover* cover_ = nullptr;
     Cover start_, during_;              // while solids move: geometry of t, mean over the step
     bool isMoved_ = false;              // start_ holds

@@ -13,21 +13,34 @@ bool fitFront(const SurfaceSample* samples, int nSamples, double steepness, Fron
 {
     using S = SurfaceShape<dim>;
     constexpr int across = S::size, size = S::size + 1;
-    double matrix[size][size] = {}, unknown[size] = {}, shape[size];
-    for (int k = 0; k < nSamples; ++k)
+    const int nGroups = (nSamples + nLanes - 1)/nLanes;
+    Lanes alpha[maxGroups], rows[size][maxGroups], distance[maxGroups];    // rows and distances times the roots of the weights
+    for (int k = 0; k < nGroups*nLanes; ++k)
     {
-        const SurfaceSample& sample = samples[k];
-        const double distance = std::log(frontFromMean(sample.alpha, sample.thickness))/steepness;
-        const double weight = 16*variation(sample.alpha)*variation(sample.alpha);
+        const SurfaceSample& sample = samples[std::min(k, nSamples - 1)];
+        alpha[k/nLanes][k % nLanes] = sample.alpha;
+        distance[k/nLanes][k % nLanes] = sample.thickness;
+        const double root = k < nSamples ? 4*variation(sample.alpha) : 0;
+        double shape[size];
         S::derivatives(sample.along, shape);
         shape[across] = sample.across;
         for (int i = 0; i < size; ++i)
         {
-            unknown[i] += weight*shape[i]*distance;
-            for (int j = i; j < size; ++j)
-            {
-                matrix[i][j] += weight*shape[i]*shape[j];
-            }
+            rows[i][k/nLanes][k % nLanes] = root*shape[i];
+        }
+    }
+    frontsFromMeans(alpha[0].data(), distance[0].data(), nGroups*nLanes);
+    for (int g = 0; g < nGroups; ++g)
+    {
+        distance[g] *= rows[0][g]/steepness;
+    }
+    double matrix[size][size], unknown[size];
+    for (int i = 0; i < size; ++i)
+    {
+        unknown[i] = sumOfProducts(rows[i], distance, nGroups);
+        for (int j = i; j < size; ++j)
+        {
+            matrix[i][j] = sumOfProducts(rows[i], rows[j], nGroups);
         }
     }
     for (int i = S::tilt; i < size; ++i)

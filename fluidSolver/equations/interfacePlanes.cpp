@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace flotsam
 {
@@ -15,7 +16,10 @@ namespace
 /// Relative difference of squared distances below which two planes count as equally near.
 constexpr double tieTolerance = 1e-9;
 
-double squaredDistance(const double* a, const double* b, int dim)
+constexpr double none = std::numeric_limits<double>::infinity();
+
+template<int dim>
+double squaredDistance(const double* a, const double* b)
 {
     double s = 0;
     for (int d = 0; d < dim; ++d)
@@ -51,30 +55,40 @@ void InterfacePlanes::clear(const SimplexMesh& mesh)
     {
         data_.assign(size, 0);
         next_.assign(size, 0);
+        nearest_.assign(mesh.nNodes, none);
         distance_.assign(mesh.nNodes, 0);
         isOffered_.assign(mesh.nNodes, 0);
     }
     for (int i : nodes_)
-        at(i)[width_ - 1] = next_[static_cast<std::size_t>(i)*width_ + width_ - 1] = 0;
+    {
+        at(i)[width_ - 1] = 0;
+        nearest_[i] = none;
+    }
     nodes_.clear();
     changed_.clear();
 }
 
 /// Takes `plane` for `node` (in next_) when it is nearer than what the node has.
-void InterfacePlanes::offer(const SimplexMesh& mesh, int node, const double* plane)
+template<int dim>
+inline void InterfacePlanes::offer(const SimplexMesh& mesh, int node, const double* plane)
 {
-    double* own = &next_[static_cast<std::size_t>(node)*width_];
-    if (own[width_ - 1] != 0)
+    constexpr int width = 2*dim + 2;
+    const double then = squaredDistance<dim>(&mesh.x[static_cast<std::size_t>(node)*dim], plane), now = nearest_[node];
+    double* own = &next_[static_cast<std::size_t>(node)*width];
+    if (now < none)
     {
-        const double* x = &mesh.x[static_cast<std::size_t>(node)*dim_];
-        const double now = squaredDistance(x, own, dim_), then = squaredDistance(x, plane, dim_);
         const double tolerance = tieTolerance*std::max(now, then);
         if (then > now + tolerance)
             return;
-        if (then > now - tolerance && !comesFirst(plane, own, dim_, std::sqrt(std::max(now, then))*tieTolerance))
-            return;
+        if (then > now - tolerance)
+        {
+            const bool isSame = then == now && std::equal(plane, plane + 2*dim, own);
+            if (isSame || !comesFirst(plane, own, dim, std::sqrt(std::max(now, then))*tieTolerance))
+                return;
+        }
     }
-    std::copy(plane, plane + width_, own);
+    std::copy_n(plane, width, own);
+    nearest_[node] = then;
     if (!isOffered_[node])
     {
         isOffered_[node] = 1;
@@ -125,12 +139,13 @@ void InterfacePlanes::planesOfCutElements(const SimplexMesh& mesh, const std::ve
     }
 }
 
+template<int dim>
 void InterfacePlanes::offerCutPlanes(const SimplexMesh& mesh)
 {
-    const int nCorners = dim_ + 1;
+    constexpr int nCorners = dim + 1;
     for (std::size_t k = 0; k < cutElements_.size(); ++k)
         for (int a = 0; a < nCorners; ++a)
-            offer(mesh, mesh.elements[static_cast<std::size_t>(cutElements_[k])*nCorners + a], &cutPlanes_[k*width_]);
+            offer<dim>(mesh, mesh.elements[static_cast<std::size_t>(cutElements_[k])*nCorners + a], &cutPlanes_[k*width_]);
     commit();
 }
 
@@ -191,16 +206,17 @@ void InterfacePlanes::commit()
     offered_.clear();
 }
 
+template<int dim>
 void InterfacePlanes::sweep(const SimplexMesh& mesh, const NodeGraph& graph)
 {
-    const int nCorners = dim_ + 1;
+    constexpr int nCorners = dim + 1;
     for (int i : changed_)
     {
         if (i < mesh.nOwned)
         {
             for (int k = graph.rowStart[i]; k < graph.rowStart[i + 1]; ++k)
                 if (graph.column[k] != i)
-                    offer(mesh, graph.column[k], at(i));
+                    offer<dim>(mesh, graph.column[k], at(i));
             continue;
         }
         for (int k = graph.nodeElementStart[i]; k < graph.nodeElementStart[i + 1]; ++k)
@@ -208,7 +224,7 @@ void InterfacePlanes::sweep(const SimplexMesh& mesh, const NodeGraph& graph)
             const int* nodes = &mesh.elements[static_cast<std::size_t>(graph.nodeElement[k])*nCorners];
             for (int a = 0; a < nCorners; ++a)
                 if (nodes[a] != i)
-                    offer(mesh, nodes[a], at(i));
+                    offer<dim>(mesh, nodes[a], at(i));
         }
     }
     commit();
@@ -230,6 +246,8 @@ void InterfacePlanes::exchange(const SimplexMesh& mesh, const Halo& halo)
         if (old[width_ - 1] == 0)
             nodes_.push_back(i);
         std::copy_n(at(i), width_, &next_[static_cast<std::size_t>(i)*width_]);
+        const double* x = &mesh.x[static_cast<std::size_t>(i)*dim_];
+        nearest_[i] = dim_ == 2 ? squaredDistance<2>(x, at(i)) : squaredDistance<3>(x, at(i));
         changed_.push_back(i);
     }
 }
@@ -241,13 +259,13 @@ void InterfacePlanes::propagate(const SimplexMesh& mesh, const NodeGraph& graph,
     planesOfCutElements(mesh, level, cover);
     if (hasMeanNormals)
         alignNormals(mesh);
-    offerCutPlanes(mesh);
+    dim_ == 2 ? offerCutPlanes<2>(mesh) : offerCutPlanes<3>(mesh);
     if (hasMeanNormals)
         exchange(mesh, halo);   // the means of elements that touch no owned node lack what other ranks hold
     // Two rings of elements are held: two stages are right on the owned nodes before copies must be refreshed.
     for (int ring = 1; ring <= nRings; ++ring)
     {
-        sweep(mesh, graph);
+        dim_ == 2 ? sweep<2>(mesh, graph) : sweep<3>(mesh, graph);
         if (ring % 2 == 1 || ring == nRings)
             exchange(mesh, halo);
     }

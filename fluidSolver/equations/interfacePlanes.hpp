@@ -36,15 +36,16 @@ private:
     void clear(const SimplexMesh& mesh);
     void planesOfCutElements(const SimplexMesh& mesh, const std::vector<double>& level, const Cover* cover);
     void alignNormals(const SimplexMesh& mesh);
-    void offerCutPlanes(const SimplexMesh& mesh);
-    void offer(const SimplexMesh& mesh, int node, const double* plane);
-    void sweep(const SimplexMesh& mesh, const NodeGraph& graph);
+    template<int dim> void offerCutPlanes(const SimplexMesh& mesh);
+    template<int dim> void offer(const SimplexMesh& mesh, int node, const double* plane);
+    template<int dim> void sweep(const SimplexMesh& mesh, const NodeGraph& graph);
     void commit();
     void exchange(const SimplexMesh& mesh, const Halo& halo);
 
     int dim_ = 0, width_ = 0;
     std::vector<double> data_;      // nNodes*width_: point, normal, slope, flag
     std::vector<double> next_;      // the same, during a sweep
+    std::vector<double> nearest_;   // squared distance of a node from the point of its plane in next_ [m^2]; infinite: it has none
     std::vector<double> distance_;
     std::vector<int> nodes_, changed_, offered_;
     std::vector<char> isOffered_;

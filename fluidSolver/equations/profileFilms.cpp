@@ -92,36 +92,28 @@ void ProfileReconstruction::findFilmAxes(int i, const std::vector<double>& alpha
 
 /// Whether node i, which has a front, is better described by a film; if so, it is one.
 template<int dim>
-bool ProfileReconstruction::fitFilm(const int* ring, int size, const std::vector<double>& alpha, bool isCoherent, const Cover* cover)
+bool ProfileReconstruction::fitFilm(const Ring& ring, const std::vector<double>& alpha, bool isCoherent, const Cover* cover)
 {
-    const int i = ring[0];
+    const int i = ring.node[0];
     if (std::min(alpha[i], 1 - alpha[i]) < leastFilled)
     {
         return false;
     }
     bool hasGas = false, hasLiquid = false;
     double levels = 0, levelSize = 0;
-    for (int k = graph_.nodeElementStart[i]; k < graph_.nodeElementStart[i + 1]; ++k)
+    for (int k = 1; k < ring.size; ++k)
     {
-        const int e = graph_.nodeElement[k];
-        if (cover && cover->state[e] == ElementState::Solid)
-        {
-            continue;
-        }
-        const int* nodes = &mesh_.elements[std::size_t(e)*(dim + 1)];
-        for (int a = 0; a <= dim; ++a)
-        {
-            hasGas = hasGas || alpha[nodes[a]] < pureLimit;
-            hasLiquid = hasLiquid || alpha[nodes[a]] > 1 - pureLimit;
-            levels += level_[nodes[a]] - level_[i];
-            levelSize += std::abs(level_[nodes[a]] - level_[i]);
-        }
-        if (isCoherent && hasGas && hasLiquid)
-        {
-            return false;
-        }
+        const int j = ring.node[k];
+        hasGas = hasGas || alpha[j] < pureLimit;
+        hasLiquid = hasLiquid || alpha[j] > 1 - pureLimit;
+        levels += ring.count[k]*(level_[j] - level_[i]);
+        levelSize += ring.count[k]*std::abs(level_[j] - level_[i]);
     }
-    const double residual = frontResidual<dim>(ring, size, alpha);
+    if (isCoherent && hasGas && hasLiquid)
+    {
+        return false;
+    }
+    const double residual = frontResidual<dim>(ring, alpha);
     if (residual < frontIsGood)
     {
         return false;
@@ -132,11 +124,13 @@ bool ProfileReconstruction::fitFilm(const int* ring, int size, const std::vector
     findFilmAxes<dim>(i, alpha, cover, axes);
     const double length = 2*cells_.halfWidth(i, axes[0]), steepness = length*p.steepness;
     SurfaceSample samples[maxRing];
-    for (int k = 0; k < size; ++k)
+    for (int k = 0; k < ring.size; ++k)
     {
-        samples[k] = sampleOf<dim>(i, ring[k], isGas ? 1 - alpha[ring[k]] : alpha[ring[k]], axes, length);
+        const int j = ring.node[k];
+        samples[k] = sampleOf<dim>(i, j, isGas ? 1 - alpha[j] : alpha[j], axes, length);
+        samples[k].growth = std::exp(0.5*samples[k].thickness);
     }
-    Film<dim> film = flotsam::fitFilm<dim>(samples, size, steepness, filmIsBetter*residual);
+    Film<dim> film = flotsam::fitFilm<dim>(samples, ring.size, steepness, filmIsBetter*residual);
     if (!(film.residual < filmIsBetter*residual))
     {
         return false;
@@ -146,7 +140,7 @@ bool ProfileReconstruction::fitFilm(const int* ring, int size, const std::vector
     {
         return false;
     }
-    p.kind = NodeProfile::Kind::Film;
+    kind_[i] = ProfileKind::Film;
     p.isGas = isGas;
     double slope = 1;
     for (const double t : film.tilt)
@@ -171,7 +165,7 @@ bool ProfileReconstruction::fitFilm(const int* ring, int size, const std::vector
     return true;
 }
 
-template bool ProfileReconstruction::fitFilm<2>(const int*, int, const std::vector<double>&, bool, const Cover*);
-template bool ProfileReconstruction::fitFilm<3>(const int*, int, const std::vector<double>&, bool, const Cover*);
+template bool ProfileReconstruction::fitFilm<2>(const Ring&, const std::vector<double>&, bool, const Cover*);
+template bool ProfileReconstruction::fitFilm<3>(const Ring&, const std::vector<double>&, bool, const Cover*);
 
 } // namespace flotsam

@@ -2,19 +2,19 @@
 /// Cells with one front: its direction and curvature from the neighbours.
 #include "equations/frontFit.hpp"
 #include "equations/profileReconstruction.hpp"
-#include "equations/surfaceLevel.hpp"
 
 #include "geometry/cover.hpp"
 
 namespace flotsam
 {
 
-/// The node and its neighbours.
 template<int dim>
-int ProfileReconstruction::findRing(int i, const Cover* cover, int* ring) const
+void ProfileReconstruction::findRing(int i, const Cover* cover, Ring& ring)
 {
-    int size = 1;
-    ring[0] = i;
+    ring.size = 1;
+    ring.node[0] = i;
+    ring.count[0] = 0;
+    placeInRing_[i] = 0;
     for (int k = graph_.nodeElementStart[i]; k < graph_.nodeElementStart[i + 1]; ++k)
     {
         const int e = graph_.nodeElement[k];
@@ -23,15 +23,25 @@ int ProfileReconstruction::findRing(int i, const Cover* cover, int* ring) const
             continue;
         }
         const int* nodes = &mesh_.elements[std::size_t(e)*(dim + 1)];
-        for (int a = 0; a <= dim && size < maxRing; ++a)
+        for (int a = 0; a <= dim; ++a)
         {
-            if (std::find(ring, ring + size, nodes[a]) == ring + size)
+            int& place = placeInRing_[nodes[a]];
+            if (place < 0 && ring.size < maxRing)
             {
-                ring[size++] = nodes[a];
+                place = ring.size++;
+                ring.node[place] = nodes[a];
+                ring.count[place] = 0;
+            }
+            if (place >= 0)
+            {
+                ++ring.count[place];
             }
         }
     }
-    return size;
+    for (int k = 0; k < ring.size; ++k)
+    {
+        placeInRing_[ring.node[k]] = -1;
+    }
 }
 
 /// Node j's cell in axes at node i, lengths in units of `length`.
@@ -51,27 +61,29 @@ SurfaceSample ProfileReconstruction::sampleOf(int i, int j, double share, const 
     sample.across = place[0];
     std::copy_n(place + 1, 2, sample.along);
     sample.thickness = std::min(2*cells_.halfWidth(j, axes[0])*profile_[i].steepness, 300.);
-    sample.growth = std::exp(0.5*sample.thickness);
     sample.alpha = share;
     return sample;
 }
 
-/// Turns and bends the front of ring[0] so that the neighbours are met.
+/// Turns and bends the front of the ring's first node so that the neighbours are met.
 template<int dim>
-void ProfileReconstruction::bendFront(const int* ring, int size, const std::vector<double>& alpha)
+void ProfileReconstruction::bendFront(const Ring& ring, const std::vector<double>& alpha)
 {
-    NodeProfile& p = profile_[ring[0]];
+    const int i = ring.node[0];
+    NodeProfile& p = profile_[i];
     double axes[dim][dim];
     std::copy_n(p.normal, dim, axes[0]);
     completeAxes<dim>(axes);
-    const double length = 2*cells_.halfWidth(ring[0], axes[0]);
+    const double length = 2*cells_.halfWidth(i, axes[0]);
+    static_assert(maxRing <= maxSamples, "a fit takes the whole ring");
     SurfaceSample samples[maxRing];
     int nSamples = 0;
-    for (int k = 0; k < size; ++k)
+    for (int k = 0; k < ring.size; ++k)
     {
-        if (isMixed(alpha[ring[k]]))
+        const int j = ring.node[k];
+        if (isMixed(alpha[j]))
         {
-            samples[nSamples++] = sampleOf<dim>(ring[0], ring[k], alpha[ring[k]], axes, length);
+            samples[nSamples++] = sampleOf<dim>(i, j, alpha[j], axes, length);
         }
     }
     Front<dim> front;
@@ -113,36 +125,43 @@ void ProfileReconstruction::setBend(NodeProfile& p, const double* curvature, con
     }
 }
 
-/// What the front of ring[0] misses in its neighbours: sum of squared differences of alpha.
+/// What the front of the ring's first node misses in its neighbours: sum of squared differences of alpha.
 template<int dim>
-double ProfileReconstruction::frontResidual(const int* ring, int size, const std::vector<double>& alpha) const
+double ProfileReconstruction::frontResidual(const Ring& ring, const std::vector<double>& alpha) const
 {
-    const NodeProfile& p = profile_[ring[0]];
-    double sum = 0;
-    for (int k = 1; k < size; ++k)
+    const int i = ring.node[0];
+    const NodeProfile& p = profile_[i];
+    double end[maxRing], thickness[maxRing], mean[maxRing];
+    for (int k = 1; k < ring.size; ++k)
     {
-        const int j = ring[k];
+        const int j = ring.node[k];
         double x[dim], gradient[dim];
         for (int d = 0; d < dim; ++d)
         {
-            x[d] = mesh_.x[std::size_t(j)*dim + d] + cells_.centroid(j)[d] - mesh_.x[std::size_t(ring[0])*dim + d];
+            x[d] = mesh_.x[std::size_t(j)*dim + d] + cells_.centroid(j)[d] - mesh_.x[std::size_t(i)*dim + d];
         }
-        const double psi = p.value + p.steepness*(bentDistance<dim>(p, x, gradient) + cells_.meanBend(j, p.bend));
-        const double defect = ProfileSlab{psi, 2*cells_.halfWidth(j, p.normal)*p.steepness}.mean() - alpha[j];
+        thickness[k] = 2*cells_.halfWidth(j, p.normal)*p.steepness;
+        end[k] = p.value + p.steepness*(bentDistance<dim>(p, x, gradient) + cells_.meanBend(j, p.bend)) + 0.5*thickness[k];
+    }
+    sweptMeans(end + 1, thickness + 1, ring.size - 1, mean + 1);
+    double sum = 0;
+    for (int k = 1; k < ring.size; ++k)
+    {
+        const double defect = mean[k] - alpha[ring.node[k]];
         sum += defect*defect;
     }
     return sum;
 }
 
-template int ProfileReconstruction::findRing<2>(int, const Cover*, int*) const;
-template int ProfileReconstruction::findRing<3>(int, const Cover*, int*) const;
+template void ProfileReconstruction::findRing<2>(int, const Cover*, Ring&);
+template void ProfileReconstruction::findRing<3>(int, const Cover*, Ring&);
 template SurfaceSample ProfileReconstruction::sampleOf<2>(int, int, double, const double (&)[2][2], double) const;
 template SurfaceSample ProfileReconstruction::sampleOf<3>(int, int, double, const double (&)[3][3], double) const;
-template void ProfileReconstruction::bendFront<2>(const int*, int, const std::vector<double>&);
-template void ProfileReconstruction::bendFront<3>(const int*, int, const std::vector<double>&);
+template void ProfileReconstruction::bendFront<2>(const Ring&, const std::vector<double>&);
+template void ProfileReconstruction::bendFront<3>(const Ring&, const std::vector<double>&);
 template void ProfileReconstruction::setBend<2>(NodeProfile&, const double*, const double (&)[2][2], double);
 template void ProfileReconstruction::setBend<3>(NodeProfile&, const double*, const double (&)[3][3], double);
-template double ProfileReconstruction::frontResidual<2>(const int*, int, const std::vector<double>&) const;
-template double ProfileReconstruction::frontResidual<3>(const int*, int, const std::vector<double>&) const;
+template double ProfileReconstruction::frontResidual<2>(const Ring&, const std::vector<double>&) const;
+template double ProfileReconstruction::frontResidual<3>(const Ring&, const std::vector<double>&) const;
 
 } // namespace flotsam

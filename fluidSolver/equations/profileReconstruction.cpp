@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "equations/profileReconstruction.hpp"
 
+#include "core/elementaryFunctions.hpp"
 #include "geometry/cover.hpp"
 
 namespace flotsam
@@ -22,25 +23,35 @@ double roofFactorOf(double coherence)
     return 0.7 + 0.55*std::clamp((coherence - 0.5)/0.45, 0., 1.);
 }
 
-/// One element's part of a roof cell as a slab: mean of its profile = log((1 + X upper)/(1 + X lower))/thickness, X = exp(psi at the node).
-struct RoofPart { double weight, upper, lower, thickness; };
-
 constexpr int maxRoofParts = 256;
 
-/// X with sum of the parts' means = alpha, by Newton steps in psi.
-double roofValue(const RoofPart* parts, int nParts, double alpha)
+/// The elements' parts of a roof cell as slabs: mean of the profile = log((1 + X upper)/(1 + X lower))/thickness, X = exp(psi at the node).
+/// Weights: volume over thickness.
+struct RoofParts
+{
+    int size = 0;
+    double weight[maxRoofParts], upper[maxRoofParts], lower[maxRoofParts];
+};
+
+/// ln X with sum of the parts' means = alpha, by Newton steps.
+double roofValue(const RoofParts& parts, double alpha)
 {
     double psi = std::log(alpha/(1 - alpha)) + 0.3;
     for (int iteration = 0; iteration < 12; ++iteration)
     {
         const double x = std::exp(psi);
         double mean = 0, slope = 0;
-        for (int k = 0; k < nParts; ++k)
+        double ratio[maxRoofParts];
+        for (int k = 0; k < parts.size; ++k)
         {
-            const RoofPart& p = parts[k];
-            const double up = 1 + x*p.upper, low = 1 + x*p.lower;
-            mean += p.weight*std::log(up/low)/p.thickness;
-            slope += p.weight*x*(p.upper - p.lower)/(up*low*p.thickness);
+            const double up = 1 + x*parts.upper[k], low = 1 + x*parts.lower[k];
+            ratio[k] = up/low;
+            slope += parts.weight[k]*x*(parts.upper[k] - parts.lower[k])/(up*low);
+        }
+        logarithms(ratio, parts.size);
+        for (int k = 0; k < parts.size; ++k)
+        {
+            mean += parts.weight[k]*ratio[k];
         }
         if (std::abs(mean - alpha) < 1e-9 || slope < 1e-14)
         {
@@ -55,9 +66,9 @@ double roofValue(const RoofPart* parts, int nParts, double alpha)
 
 ProfileReconstruction::ProfileReconstruction(const SimplexMesh& mesh, const NodeGraph& graph, const DualCells& cells,
     const std::vector<double>& width)
-    : mesh_(mesh), graph_(graph), cells_(cells), width_(width), moments_(ShareMoments::of(mesh.dim)), profile_(mesh.nNodes),
+    : mesh_(mesh), graph_(graph), cells_(cells), width_(width), moments_(ShareMoments::of(mesh.dim)), kind_(mesh.nNodes), profile_(mesh.nNodes),
       level_(mesh.nNodes), normalSum_(std::size_t(mesh.nNodes)*mesh.dim), coherence_(mesh.nNodes),
-      hasLevel_(mesh.nNodes, 0)
+      hasLevel_(mesh.nNodes, 0), placeInRing_(mesh.nNodes, -1)
 {
 }
 
@@ -144,7 +155,7 @@ void ProfileReconstruction::fillFront(int i, double alpha)
     const double thickness = std::min(2*cells_.halfWidth(i, p.normal)*p.steepness, 600.);
     double gradient[dim];
     const double meanDistance = bentDistance<dim>(p, cells_.centroid(i), gradient) + cells_.meanBend(i, p.bend);
-    p.kind = NodeProfile::Kind::Front;
+    kind_[i] = ProfileKind::Front;
     p.value = std::log(frontFromMean(alpha, thickness)) - meanDistance*p.steepness;
 }
 
@@ -153,10 +164,9 @@ void ProfileReconstruction::fitRoof(int i, double alpha, const Cover* cover)
 {
     constexpr int n = dim + 1;
     NodeProfile& p = profile_[i];
-    RoofPart parts[maxRoofParts];
-    int nParts = 0;
+    RoofParts parts;
     double total = 0;
-    for (int k = graph_.nodeElementStart[i]; k < graph_.nodeElementStart[i + 1] && nParts < maxRoofParts; ++k)
+    for (int k = graph_.nodeElementStart[i]; k < graph_.nodeElementStart[i + 1] && parts.size < maxRoofParts; ++k)
     {
         const int e = graph_.nodeElement[k];
         if (cover && cover->state[e] == ElementState::Solid)
@@ -186,19 +196,20 @@ void ProfileReconstruction::fitRoof(int i, double alpha, const Cover* cover)
         const double mean = moments_.first*sum;
         const double spread = (moments_.square - moments_.mixed)*squares + moments_.mixed*sum*sum - mean*mean;
         const double thickness = std::max(2*scale*std::sqrt(3*std::max(spread, 0.)), 1e-4);
-        RoofPart& part = parts[nParts++];
-        part.weight = mesh_.volume[e];
-        part.thickness = thickness;
-        part.upper = std::exp(std::clamp(scale*mean + 0.5*thickness, -300., 300.));
-        part.lower = std::exp(std::clamp(scale*mean - 0.5*thickness, -300., 300.));
-        total += part.weight;
+        parts.weight[parts.size] = mesh_.volume[e]/thickness;
+        parts.upper[parts.size] = std::clamp(scale*mean + 0.5*thickness, -300., 300.);
+        parts.lower[parts.size] = std::clamp(scale*mean - 0.5*thickness, -300., 300.);
+        ++parts.size;
+        total += mesh_.volume[e];
     }
-    for (int k = 0; k < nParts; ++k)
+    exponentials(parts.upper, parts.size);
+    exponentials(parts.lower, parts.size);
+    for (int k = 0; k < parts.size; ++k)
     {
-        parts[k].weight /= total;
+        parts.weight[k] /= total;
     }
-    p.kind = NodeProfile::Kind::Roof;
-    p.value = roofValue(parts, nParts, alpha);
+    kind_[i] = ProfileKind::Roof;
+    p.value = roofValue(parts, alpha);
 }
 
 template<int dim>
@@ -209,13 +220,13 @@ void ProfileReconstruction::build(const std::vector<double>& alpha, const std::v
     sumNormals<dim>(alpha, elements, cover);
     for (int i : nodes)
     {
-        NodeProfile& p = profile_[i];
-        p.kind = NodeProfile::Kind::Tail;
+        kind_[i] = ProfileKind::Tail;
         if (!isMixed(alpha[i]))
         {
             continue;
         }
-        p.kind = NodeProfile::Kind::Bulk;
+        kind_[i] = ProfileKind::Bulk;
+        NodeProfile& p = profile_[i];
         const double* g = &normalSum_[std::size_t(i)*dim];
         double length = 0;
         for (int d = 0; d < dim; ++d)
@@ -235,14 +246,14 @@ void ProfileReconstruction::build(const std::vector<double>& alpha, const std::v
         std::fill_n(p.bend, 6, 0.);
         const double coherence = length/coherence_[i];
         const bool isCoherent = coherence >= coherenceLimit;
-        int ring[maxRing];
-        const int size = findRing<dim>(i, cover, ring);
+        Ring ring;
+        findRing<dim>(i, cover, ring);
         if (isCoherent)
         {
-            bendFront<dim>(ring, size, alpha);
+            bendFront<dim>(ring, alpha);
         }
         fillFront<dim>(i, alpha[i]);
-        if (fitFilm<dim>(ring, size, alpha, isCoherent, cover))
+        if (fitFilm<dim>(ring, alpha, isCoherent, cover))
         {
             nFilms_ += i < mesh_.nOwned;
         }

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "equations/dualCells.hpp"
+#include "equations/profileMeans.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,11 +17,13 @@ namespace flotsam
 
 struct SurfaceSample;
 
+/// A cell is full or empty up to traces (Tail), mixed without a surface (Bulk), or has a profile.
+enum class ProfileKind : char { Tail, Bulk, Front, Roof, Film };
+
 /// psi(x) = value + steepness (normal.r + r.K r/2) (front), r = x - x_node, or per element (roof). A film of one phase has two fronts:
 /// psi = value + steepness (taper.r -+ (normal.r + r.K r/2)), its alpha is the sum of both less 1.
 struct NodeProfile
 {
-    enum class Kind : int { Tail, Bulk, Front, Roof, Film };
     double normal[3];       ///< unit, into the liquid (front) or across the film
     double bend[6];         ///< K [1/m]: xx yy xy, in 3D xx yy zz xy xz yz
     double taper[3];        ///< half the gradient of a film's thickness
@@ -28,13 +31,12 @@ struct NodeProfile
     double otherValue;      ///< of a film's second front
     double steepness;       ///< 1/width [1/m]
     double roofFactor;      ///< slope of a roof over that of the interpolated psi, before it is limited to 1/width
-    Kind kind;
     bool isGas;             ///< the film is of gas
 };
 
 /// normal.r + r.K r/2 [m] and its gradient normal + K r.
 template<int dim>
-double bentDistance(const NodeProfile& p, const double* r, double* gradient)
+[[gnu::always_inline]] inline double bentDistance(const NodeProfile& p, const double* r, double* gradient)
 {
     const double* k = p.bend;
     if constexpr (dim == 2)
@@ -62,36 +64,11 @@ inline double variation(double alpha)
     return alpha*(1 - alpha);
 }
 
-/// int_0^1 of 1/(1+exp(-(psi - s swept))) ds: mean of the profile over what passes a face during a step.
-inline double sweptMean(double psi, double swept)
-{
-    constexpr double limit = 35;    // exp(-35) is below the round-off of 1
-    if (std::abs(swept) < 0.3)      // series about the middle, error below 1e-9; a third of the exact form's time
-    {
-        const double middle = 1/(1 + std::exp(0.5*swept - std::clamp(psi, -limit, limit)));
-        const double slope = middle*(1 - middle), square = swept*swept;
-        return middle + slope*(1 - 2*middle)*square*(1./24 + square*(1 - 12*slope)/1920);
-    }
-    const double first = std::clamp(psi, -limit, limit), last = std::clamp(psi - swept, -limit, limit);
-    if (first == last)
-    {
-        return first > 0 ? 1 : 0;
-    }
-    return std::log((1 + std::exp(first))/(1 + std::exp(last)))/(first - last);
-}
-
 /// Outside [mixedEdge, 1 - mixedEdge] a cell counts as full or empty.
 constexpr double mixedEdge = 1e-4;
 inline bool isMixed(double alpha)
 {
     return alpha > mixedEdge && alpha < 1 - mixedEdge;
-}
-
-/// exp(psi at the middle of a slab) from the mean alpha of 1/(1+exp(-psi)) over it; thickness in widths.
-inline double frontFromMean(double alpha, double thickness)
-{
-    const double a = std::exp(0.5*thickness), b = std::expm1(thickness*alpha);
-    return std::max(b/(a - (b + 1)/a), 1e-300);
 }
 
 class ProfileReconstruction
@@ -100,12 +77,13 @@ public:
     ProfileReconstruction(const SimplexMesh& mesh, const NodeGraph& graph, const DualCells& cells,
         const std::vector<double>& width);
 
-    /// `elements`: all local elements in which alpha varies; `nodes`: owned and first-ring nodes of them. Fills profile() of
+    /// `elements`: all local elements in which alpha varies; `nodes`: owned and first-ring nodes of them. Fills kind() and profile() of
     /// `nodes` and level() of all nodes of elements with a node in the band. Solid elements of `cover` (may be null) are not read.
     void build(const std::vector<double>& alpha, const std::vector<int>& elements, const std::vector<int>& nodes,
         const Cover* cover);
 
-    const NodeProfile& profile(int node) const { return profile_[node]; }
+    ProfileKind kind(int node) const { return kind_[node]; }
+    const NodeProfile& profile(int node) const { return profile_[node]; }   ///< of a front, roof or film
     /// width ln(alpha/(1-alpha)), clipped [m]: its gradient in an element has length 1 in the equilibrium profile.
     double level(int node) const { return level_[node]; }
 
@@ -114,30 +92,34 @@ public:
     long nFilms() const { return nFilms_; }
 
 private:
+    static constexpr int maxRing = 128;
+    /// A node, first, and its neighbours, with the number of elements around the first that have them.
+    struct Ring { int size, node[maxRing], count[maxRing]; };
+
     template<int dim> void sumNormals(const std::vector<double>& alpha, const std::vector<int>& elements, const Cover* cover);
     template<int dim> void fillFront(int i, double alpha);
-    template<int dim> void bendFront(const int* ring, int size, const std::vector<double>& alpha);
+    template<int dim> void bendFront(const Ring& ring, const std::vector<double>& alpha);
     template<int dim> static void setBend(NodeProfile& p, const double* curvature, const double (&axes)[dim][dim], double factor);
-    template<int dim> bool fitFilm(const int* ring, int size, const std::vector<double>& alpha, bool isCoherent, const Cover* cover);
-    template<int dim> int findRing(int i, const Cover* cover, int* ring) const;
+    template<int dim> bool fitFilm(const Ring& ring, const std::vector<double>& alpha, bool isCoherent, const Cover* cover);
+    template<int dim> void findRing(int i, const Cover* cover, Ring& ring);
     template<int dim> void findFilmAxes(int i, const std::vector<double>& alpha, const Cover* cover, double (&axes)[dim][dim]) const;
     template<int dim> SurfaceSample sampleOf(int i, int j, double share, const double (&axes)[dim][dim], double length) const;
-    template<int dim> double frontResidual(const int* ring, int size, const std::vector<double>& alpha) const;
+    template<int dim> double frontResidual(const Ring& ring, const std::vector<double>& alpha) const;
     template<int dim> void fitRoof(int i, double alpha, const Cover* cover);
     template<int dim> void build(const std::vector<double>& alpha, const std::vector<int>& elements,
         const std::vector<int>& nodes, const Cover* cover);
-
-    static constexpr int maxRing = 128;
 
     const SimplexMesh& mesh_;
     const NodeGraph& graph_;
     const DualCells& cells_;
     const std::vector<double>& width_;
     ShareMoments moments_;
+    std::vector<ProfileKind> kind_;
     std::vector<NodeProfile> profile_;
     std::vector<double> level_, normalSum_, coherence_;
     std::vector<int> bandElements_, levelNodes_;   // elements with a node in the band; their nodes
     std::vector<char> hasLevel_;
+    std::vector<int> placeInRing_;      // while a ring is found: of its nodes, else -1
     long nFronts_ = 0, nRoofs_ = 0, nFilms_ = 0;
 };
 

@@ -3,16 +3,34 @@
 /// a surface of second degree, s = c + b.z + z.K z/2, with s along a direction near its normal and z across it.
 #pragma once
 
+#include <Eigen/Core>
+
 #include <cmath>
 
 namespace flotsam
 {
 
+/// Values of four cells, with which the processor computes several at once.
+using Lanes = Eigen::Array4d;
+/// Cells that a fit can take.
+constexpr int maxSamples = 128, nLanes = 4, maxGroups = maxSamples/nLanes;
+
+/// Sum over the cells of n groups.
+inline double sumOfProducts(const Lanes* a, const Lanes* b, int n)
+{
+    Lanes sum = a[0]*b[0];
+    for (int g = 1; g < n; ++g)
+    {
+        sum += a[g]*b[g];
+    }
+    return sum.sum();
+}
+
 /// A dual cell: its centroid in units of the fitted cell's thickness h along the direction, and the mean of a phase.
 struct SurfaceSample
 {
     double across, along[2];    ///< s and z
-    double thickness, growth;   ///< of the slab with the cell's second moment, over delta; exp(thickness/2)
+    double thickness, growth;   ///< of the slab with the cell's second moment, over delta; exp(thickness/2), for films
     double alpha;
 };
 
@@ -49,9 +67,10 @@ void solveSymmetric(double (&a)[n][n], double (&b)[n])
 {
     for (int k = 0; k < n; ++k)
     {
+        const double inverse = 1/a[k][k];
         for (int r = k + 1; r < n; ++r)
         {
-            const double factor = a[k][r]/a[k][k];
+            const double factor = a[k][r]*inverse;
             for (int c = r; c < n; ++c)
             {
                 a[r][c] -= factor*a[k][c];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "equations/surfaceLevel.hpp"
 
-#include "equations/profileReconstruction.hpp"
+#include "equations/profileMeans.hpp"
 #include "geometry/cover.hpp"
 
 #include <algorithm>
@@ -34,11 +34,14 @@ struct FacingElements
 
     std::vector<Element> elements;
     std::vector<int> local;     ///< per mesh node: its place in sums, -1: none
+    std::vector<int> node;      ///< the other way round
     std::vector<int> band;      ///< owned nodes whose level is sought
-    std::vector<double> sums;   ///< around each node: weighted gradients of the level, D, and their lengths
+    std::vector<double> sums;   ///< around each wanted node: weighted gradients of the level, D, and their lengths
+    std::vector<char> isWanted; ///< per place in sums
 
     FacingElements(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& alpha, const Cover* cover);
     void sumGradients(const std::vector<double>& level);
+    void wantNeighbours(const std::vector<char>& hasMoved);
 };
 
 /// Positive at the nodes near elements that the surface may pass: see nRings. Elements: those with nodes in the band.
@@ -93,7 +96,6 @@ FacingElements<D>::FacingElements(const SimplexMesh& mesh, const Halo& halo, con
 {
     const std::vector<int> candidates = bandElements(mesh, alpha, cover);
     const std::vector<double> isNear = nearSurface(mesh, halo, alpha, candidates);
-    int count = 0;
     for (int e : candidates)
     {
         const int* nodes = &mesh.elements[std::size_t(e)*N];
@@ -106,7 +108,11 @@ FacingElements<D>::FacingElements(const SimplexMesh& mesh, const Halo& halo, con
             const int i = nodes[a];
             isKnown = isKnown && isInBand(alpha[i]) && (!cover || cover->isActiveNode[i]);
             variation += alpha[i]*(1 - alpha[i]);
-            if (local[i] < 0) local[i] = count++;
+            if (local[i] < 0)
+            {
+                local[i] = int(node.size());
+                node.push_back(i);
+            }
             element.node[a] = i;
             element.local[a] = local[i];
         }
@@ -115,7 +121,9 @@ FacingElements<D>::FacingElements(const SimplexMesh& mesh, const Halo& halo, con
     }
     for (int i = 0; i < mesh.nOwned; ++i)
         if (isNear[i] > 0 && isInBand(alpha[i])) band.push_back(i);
-    sums.resize(std::size_t(count)*N);
+    sums.resize(node.size()*N);
+    isWanted.assign(node.size(), 0);
+    for (int i : band) isWanted[local[i]] = 1;
 }
 
 template<int D>
@@ -124,6 +132,7 @@ void FacingElements<D>::sumGradients(const std::vector<double>& level)
     std::fill(sums.begin(), sums.end(), 0.0);
     for (const Element& e : elements)
     {
+        if (std::none_of(e.local, e.local + N, [this](int l) { return isWanted[l]; })) continue;
         double part[N] = {}, square = 0;
         for (int a = 0; a < N; ++a)
             for (int d = 0; d < D; ++d) part[d] += level[e.node[a]]*e.gradN[a*D + d];
@@ -132,6 +141,16 @@ void FacingElements<D>::sumGradients(const std::vector<double>& level)
         for (int a = 0; a < N; ++a)
             for (int d = 0; d < N; ++d) sums[std::size_t(e.local[a])*N + d] += e.weight*part[d];
     }
+}
+
+/// Wanted are the nodes of elements with a node that has moved (both per place in sums).
+template<int D>
+void FacingElements<D>::wantNeighbours(const std::vector<char>& hasMoved)
+{
+    std::fill(isWanted.begin(), isWanted.end(), 0);
+    for (const Element& e : elements)
+        if (std::any_of(e.local, e.local + N, [&](int l) { return hasMoved[l]; }))
+            for (int l : e.local) isWanted[l] = 1;
 }
 
 double thicknessInWidths(const DualCells& cells, int i, const double* normal, double width)
@@ -146,38 +165,73 @@ double centroidHeight(const DualCells& cells, int i, const double* normal, int d
     return result;
 }
 
-/// Repeats what surfaceLevel() describes on the level it is given.
+/// The level of the wanted nodes of the band from the sums around them; wanted: their places in the band. The sums become unit vectors.
+template<int D>
+std::vector<double> levelsOf(const std::vector<int>& wanted, FacingElements<D>& facing, const std::vector<double>& alpha, const std::vector<double>& width,
+    const DualCells& cells, const std::vector<double>& atNode)
+{
+    std::vector<double> shares, means(wanted.size()), slabs(wanted.size());
+    shares.reserve(wanted.size());
+    for (std::size_t m = 0; m < wanted.size(); ++m)
+    {
+        const int i = facing.band[wanted[m]];
+        double* sum = &facing.sums[std::size_t(facing.local[i])*(D + 1)], length = 0;
+        for (int d = 0; d < D; ++d) length += sum[d]*sum[d];
+        length = std::sqrt(length);
+        for (int d = 0; d < D; ++d) sum[d] /= length;
+        // where the neighbours do not agree on a direction (sheets, corners) there is no slab of the cell to take the mean over
+        shares.push_back(std::clamp((length/sum[D] - 0.5)/0.45, 0., 1.));
+        means[m] = alpha[i];
+        slabs[m] = thicknessInWidths(cells, i, sum, width[i]);
+    }
+    frontsFromMeans(means.data(), slabs.data(), int(wanted.size()));
+    for (std::size_t m = 0; m < wanted.size(); ++m)
+    {
+        const int i = facing.band[wanted[m]];
+        const double slab = width[i]*slabs[m] - centroidHeight(cells, i, &facing.sums[std::size_t(facing.local[i])*(D + 1)], D);
+        slabs[m] = shares[m]*slab + (1 - shares[m])*atNode[i];
+    }
+    return slabs;
+}
+
+/// Repeats what surfaceLevel() describes on the level it is given, each time for the nodes beside those that have moved by more than the tolerance.
 template<int D>
 void takeMeans(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& alpha, const std::vector<double>& width,
     const DualCells& cells, const Cover* cover, double tolerance, const std::vector<double>& atNode, std::vector<double>& level)
 {
     FacingElements<D> facing(mesh, halo, alpha, cover);
-    std::vector<double> lastChange(facing.band.size());
+    std::vector<double> lastChange(facing.band.size()), before;
+    std::vector<char> hasMoved(facing.node.size());
+    std::vector<int> wanted;
     for (int repeat = 0; repeat < mostRepeats; ++repeat)
     {
         facing.sumGradients(level);
-        double change = 0;
+        wanted.clear();
         for (std::size_t k = 0; k < facing.band.size(); ++k)
         {
-            const int i = facing.band[k];
-            double* sum = &facing.sums[std::size_t(facing.local[i])*(D + 1)], length = 0;
-            for (int d = 0; d < D; ++d) length += sum[d]*sum[d];
-            length = std::sqrt(length);
-            if (!(length > 1e-12*sum[D])) continue;
-            for (int d = 0; d < D; ++d) sum[d] /= length;
-            // where the neighbours do not agree on a direction (sheets, corners) there is no slab of the cell to take the mean over
-            const double share = std::clamp((length/sum[D] - 0.5)/0.45, 0., 1.);
-            const double slab = width[i]*std::log(frontFromMean(alpha[i], thicknessInWidths(cells, i, sum, width[i])))
-                - centroidHeight(cells, i, sum, D);
-            const double found = share*slab + (1 - share)*atNode[i];
-            // as much as it is of alpha, four times: far from the surface the level is of little use
-            const double own = 4*alpha[i]*(1 - alpha[i])*std::abs(found - level[i])/width[i];
+            const int l = facing.local[facing.band[k]];
+            const double* sum = &facing.sums[std::size_t(l)*(D + 1)];
+            double square = 0;
+            for (int d = 0; d < D; ++d) square += sum[d]*sum[d];
+            if (facing.isWanted[l] && std::sqrt(square) > 1e-12*sum[D]) wanted.push_back(int(k));
+        }
+        const std::vector<double> found = levelsOf<D>(wanted, facing, alpha, width, cells, atNode);
+        before = level;
+        double change = 0;
+        // as much as it is of alpha, four times: far from the surface the level is of little use
+        const auto changeOf = [&](int i) { return 4*alpha[i]*(1 - alpha[i])*std::abs(level[i] - before[i])/width[i]; };
+        for (std::size_t m = 0; m < wanted.size(); ++m)
+        {
+            const int k = wanted[m], i = facing.band[k];
+            level[i] = found[m];
+            const double own = changeOf(i);
             if (repeat < patience || own < stubborn*lastChange[k]) change = std::max(change, own);
             lastChange[k] = own;
-            level[i] = found;
         }
         halo.update(level, 1);
         if (halo.max(change) < tolerance) break;
+        for (std::size_t l = 0; l < facing.node.size(); ++l) hasMoved[l] = changeOf(facing.node[l]) >= tolerance;
+        facing.wantNeighbours(hasMoved);
     }
 }
 
@@ -199,7 +253,7 @@ ProfileSlab profileSlab(const DualCells* cells, int i, const double* normal, dou
 }
 
 std::vector<double> surfaceLevel(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& alpha,
-    const std::vector<double>& width, const DualCells* cells, const Cover* cover, double tolerance, const std::vector<double>* guess)
+    const std::vector<double>& width, const DualCells* cells, const Cover* cover, double tolerance)
 {
     const double clip = std::log(highest/lowest);
     std::vector<double> level(mesh.nNodes);
@@ -207,8 +261,6 @@ std::vector<double> surfaceLevel(const SimplexMesh& mesh, const Halo& halo, cons
         level[i] = width[i]*(alpha[i] <= lowest ? -clip : alpha[i] >= highest ? clip : std::log(alpha[i]/(1 - alpha[i])));
     if (!cells) return level;
     const std::vector<double> atNode = level;
-    for (int i = 0; guess && i < mesh.nNodes; ++i)
-        if (isInBand(alpha[i])) level[i] = (*guess)[i];
     if (mesh.dim == 2) takeMeans<2>(mesh, halo, alpha, width, *cells, cover, tolerance, atNode, level);
     else takeMeans<3>(mesh, halo, alpha, width, *cells, cover, tolerance, atNode, level);
     return level;

@@ -24,9 +24,8 @@ ProfileSlab profileSlab(const DualCells* cells, int i, const double* normal, dou
 /// the profile's value at the node. With cells alpha is its mean over the dual cell, as the transport moves it: the value at the node would let the
 /// surface lag behind or run ahead of what has flowed, by its place between the nodes (docs/numerics.md, section 2). The mean depends on the
 /// surface's direction, the gradient of the result: found by repetition near the surface, at most 12 times (at planes each leaves a quarter), until nothing changes by
-/// more than `tolerance` widths where alpha is 1/2, elsewhere by as much of alpha; nodes that do not converge are not waited for. guess: the level of a similar alpha, to begin with. Collective.
+/// more than `tolerance` widths where alpha is 1/2, elsewhere by as much of alpha; nodes that do not converge are not waited for. Collective.
 std::vector<double> surfaceLevel(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& alpha,
-    const std::vector<double>& width, const DualCells* cells, const Cover* cover, double tolerance,
-    const std::vector<double>* guess = nullptr);
+    const std::vector<double>& width, const DualCells* cells, const Cover* cover, double tolerance);
 
 } // namespace flotsam
