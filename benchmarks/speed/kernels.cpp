@@ -2,6 +2,7 @@
 /// The solver's kernels alone: seconds per element, node or sub-step (column with that name).
 ///   build/bin/speedKernels [--benchmark_filter=..] [--benchmark_format=csv]
 #include "demCoupling/coupling/scene.hpp"
+#include "equations/basins.hpp"
 #include "equations/flowEquation.hpp"
 #include "geometry/coverBuilder.hpp"
 #include "geometry/cutSimplex.hpp"
@@ -62,6 +63,7 @@ struct FlowScene
         state.alphaOld = state.alphaOlder = state.alpha;
         const BoundaryState boundary{0, state.u.data(), state.alpha.data()};
         for (std::size_t p = 0; p < patches.size(); ++p) patches[p].evaluate(boundary, values[p]);
+        basins.find(nullptr);
         transport.advance(state.alpha, timeStep(), state.u, {}, nullptr, patches, values, std::vector<char>(mesh.nNodes, 0));
     }
 
