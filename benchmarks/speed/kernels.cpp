@@ -2,6 +2,7 @@
 /// The solver's kernels alone: seconds per element, node or sub-step (column with that name).
 ///   build/bin/speedKernels [--benchmark_filter=..] [--benchmark_format=csv]
 #include "demCoupling/coupling/scene.hpp"
+#include "equations/basins.hpp"
 #include "equations/flowEquation.hpp"
 #include "geometry/coverBuilder.hpp"
 #include "geometry/cutSimplex.hpp"
@@ -27,9 +28,12 @@ void countPer(benchmark::State& state, const char* what, double number)
     state.counters[what] = benchmark::Counter(number, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-/// A box half full of water, sheared surface, swirling flow: everything FlowEquation::assemble reads.
+int cellsOf(int dim) { return dim == 2 ? cells2D : cells3D; }
+
+/// A box full or half full of water, sheared surface, swirling flow: everything FlowEquation::assemble reads.
 struct FlowScene
 {
+    int cells;      // a direction
     SimplexMesh mesh;
     NodeGraph graph;
     Halo halo;
@@ -43,9 +47,8 @@ struct FlowScene
     Basins basins;
     std::vector<double> force;
 
-    explicit FlowScene(int dim)
-    :   mesh(makeBoxMesh(MPI_COMM_WORLD, dim, dim == 2 ? std::array<int, 3>{cells2D, cells2D, 1} : std::array<int, 3>{cells3D, cells3D, cells3D},
-            {0, 0, 0}, {1, 1, 1}, 0.1)),
+    FlowScene(int dim, int nCells, bool isFull)
+    :   cells(nCells), mesh(makeBoxMesh(MPI_COMM_WORLD, dim, {cells, cells, dim == 2 ? 1 : cells}, {0, 0, 0}, {1, 1, 1}, 0.1)),
         graph(mesh), halo(mesh, MPI_COMM_WORLD), patches(allPatches(mesh, BoundaryPatch::Velocity::Fixed)), values(patches.size()),
         state(restState(mesh)), transport(mesh, graph, halo, controls), equation(mesh, graph, halo, fluid, controls, patches), basins(mesh, halo),
         force(std::size_t(mesh.nElements)*dim, 0.0)
@@ -56,16 +59,17 @@ struct FlowScene
             double* u = &state.u[std::size_t(i)*dim];
             u[0] = std::sin(s)*std::sin(s)*std::sin(2*t);
             u[1] = -std::sin(t)*std::sin(t)*std::sin(2*s);
-            state.alpha[i] = 1/(1 + std::exp((x[1] - 0.5 - 0.1*std::cos(s))/transport.width()[i]));
+            state.alpha[i] = isFull ? 1 : 1/(1 + std::exp((x[1] - 0.5 - 0.1*std::cos(s))/transport.width()[i]));
         }
         state.uOld = state.u;
         state.alphaOld = state.alphaOlder = state.alpha;
         const BoundaryState boundary{0, state.u.data(), state.alpha.data()};
         for (std::size_t p = 0; p < patches.size(); ++p) patches[p].evaluate(boundary, values[p]);
+        basins.find(nullptr);
         transport.advance(state.alpha, timeStep(), state.u, {}, nullptr, patches, values, std::vector<char>(mesh.nNodes, 0));
     }
 
-    double timeStep() const { return 0.5/(mesh.dim == 2 ? cells2D : cells3D); }
+    double timeStep() const { return 0.5/cells; }
 
     void assemble()
     {
@@ -82,16 +86,26 @@ struct FlowScene
 
 void elementAssembly(benchmark::State& state)
 {
-    FlowScene scene{int(state.range(0))};
+    FlowScene scene(int(state.range(0)), cellsOf(int(state.range(0))), false);
     for (auto _ : state) scene.assemble();
     countPer(state, "element", scene.mesh.nElements);
     countPer(state, "node", scene.mesh.nNodes);
 }
 BENCHMARK(elementAssembly)->ArgName("dim")->Arg(2)->Arg(3)->Unit(benchmark::kMillisecond);
 
+/// Only water, 3D. Argument: cells a direction; 6 fit into the second cache.
+void plainAssembly(benchmark::State& state)
+{
+    FlowScene scene(3, int(state.range(0)), true);
+    for (auto _ : state) scene.assemble();
+    countPer(state, "element", scene.mesh.nElements);
+    countPer(state, "node", scene.mesh.nNodes);
+}
+BENCHMARK(plainAssembly)->ArgName("cells")->Arg(6)->Arg(28)->Arg(40)->Unit(benchmark::kMillisecond);
+
 void operatorProduct(benchmark::State& state)
 {
-    FlowScene scene{int(state.range(0))};
+    FlowScene scene(int(state.range(0)), cellsOf(int(state.range(0))), false);
     scene.assemble();
     const FlowOperator product(scene.graph, scene.halo, scene.equation.system(), scene.mesh.nOwned);
     const std::size_t n = std::size_t(scene.mesh.nNodes)*(scene.mesh.dim + 1);
@@ -110,7 +124,7 @@ BENCHMARK(operatorProduct)->ArgName("dim")->Arg(2)->Arg(3)->Unit(benchmark::kMil
 /// One step to and one back, so that the surface stays what it is. Second argument: Courant number in percent.
 void transportStep(benchmark::State& state)
 {
-    const int dim = int(state.range(0)), n = dim == 2 ? cells2D : cells3D;
+    const int dim = int(state.range(0)), n = cellsOf(dim);
     TransportScene scene(MPI_COMM_WORLD, dim, n, NumericsControls().interfaceWidth, dim == 2 ? vortexField() : deformationField());
     scene.fill(disc({0.5, dim == 2 ? 0.75 : 0.5, 0.5}, dim == 2 ? 0.15 : 0.25, dim));
     const double dt = 0.01*double(state.range(1))/(n*scene.fastest);

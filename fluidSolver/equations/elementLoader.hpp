@@ -20,6 +20,9 @@ struct NodalData
     std::vector<double> rho, rhoOld, rhoOlder;  ///< at t^(n+1), t^n, t^(n-1) [kg/m^3]
     std::vector<double> mu;                     ///< [Pa s]
     std::vector<double> advection;              ///< a at t^(n+1) [m/s]
+    std::vector<double> history;                ///< -(c1 u^n + c2 u^(n-1)) [m/s^2]
+    enum Fluid : char { Mixed, Liquid, Gas };
+    std::vector<Fluid> fluid;                   ///< the one that was there at all three times
 };
 
 /// Ratio of densities within the three time levels of an element from which its residual, and its inertia where its mean density counts, are taken
@@ -59,7 +62,7 @@ struct ElementSource
     double rhoOld = 0, rhoOlder = 0;                        ///< means over the fluid part at t^n, t^(n-1) [kg/m^3]
     TimeScheme time;                                        ///< first order where the density is steep
     bool isSteep = false;                                   ///< see steepDensity
-    ElementRates rates;
+    ElementRates<double> rates;
 };
 
 /// Convection by the transport's mass fluxes, extrapolated from the middles of the last steps to the end of this one as BDF2 of the nodes' masses asks
@@ -93,12 +96,34 @@ inline void loadConvection(const ElementSource& source, const double* lastFluxes
     }
 }
 
-template<int D>
-inline double squared(const double* v)
+template<int D, class Real>
+inline Real squared(const Real* v)
 {
-    double sum = 0;
+    Real sum{};
     for (int d = 0; d < D; ++d) sum += v[d]*v[d];
     return sum;
+}
+
+/// Adds to what convects, whose mean velocity is loaded, the inertial share of u' (D; null: none). tau follows. h: length of the element [m].
+template<int D, class Real>
+inline ElementRates<Real> addFineScale(const Real* fineScale, const Real& h, double dt, const NumericsControls& controls, ElementData<D, Real>& data)
+{
+    ElementRates<Real> rates(dt, squared<D>(data.advection), h, data.mu/data.rho);
+    if (fineScale)
+    {
+        const Real share = rates.convectingShare();
+        for (int d = 0; d < D; ++d) data.advection[d] += share*fineScale[d];
+        rates.setSpeed(squared<D>(data.advection), h);
+    }
+    data.tau = rates.tauMomentum(controls.tauFactor);
+    return rates;
+}
+
+template<int D, class Real>
+inline void loadTauContinuity(const ElementRates<Real>& rates, const Real& h, const NumericsControls& controls, ElementData<D, Real>& data)
+{
+    data.tauCont = controls.tauContFactor
+        *tauContinuity<Real>(controls.tauContWithTimeStep, data.rho, squared<D>(data.advection), h, data.mu/data.rho, rates);
 }
 
 /// Fluid part, materials, what convects, tau, history and force: all that the momentum residual needs. False for an element without a fluid part.
@@ -138,15 +163,9 @@ inline bool loadResidualData(int e, const SimplexMesh& mesh, const FlowStepData&
     data.mu = mu;
     source.rhoOld = rhoOld;
     source.rhoOlder = rhoOlder;
-    const double dt = step.time.dt, h = mesh.h[e], nu = mu/rho;
-    source.rates = ElementRates(dt, squared<D>(advection), h, nu);
-    if (step.fineScale)
-    {
-        const double share = source.rates.convectingShare();
-        for (int d = 0; d < D; ++d) advection[d] += share*(*step.fineScale)[std::size_t(e)*D + d];
-        source.rates.setSpeed(squared<D>(advection), h);
-    }
     for (int d = 0; d < D; ++d) data.advection[d] = advection[d];
+    const double dt = step.time.dt;
+    source.rates = addFineScale<D, double>(step.fineScale ? &(*step.fineScale)[std::size_t(e)*D] : nullptr, mesh.h[e], dt, controls, data);
     source.time = step.time;
     source.isSteep = isSteep<D>(data, nodes, nodal, rhoOld, rhoOlder);
     if (source.isSteep) source.time = TimeScheme::bdf(1, dt, 0);
@@ -158,7 +177,6 @@ inline bool loadResidualData(int e, const SimplexMesh& mesh, const FlowStepData&
             const std::size_t k = std::size_t(nodes[a])*D + d;
             data.history[a*D + d] = -(c1*step.state->u[k] + c2*step.state->uOld[k]);
         }
-    data.tau = source.rates.tauMomentum(controls.tauFactor);
     for (int d = 0; d < D; ++d)
         data.force[d] = step.elementForce ? (*step.elementForce)[std::size_t(e)*D + d] : 0;
     data.prepare();
@@ -233,8 +251,7 @@ inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& 
         const bool isExtrapolated = step.massFluxes != nullptr;
         loadConvection<D>(source, isExtrapolated ? step.massFluxes->of(e) : nullptr, isExtrapolated ? step.time.extrapolation : 0, fluid, controls, data);
     }
-    data.tauCont = controls.tauContFactor
-        *tauContinuity(controls.tauContWithTimeStep, data.rho, squared<D>(data.advection), mesh.h[e], data.mu/data.rho, source.rates);
+    loadTauContinuity<D, double>(source.rates, mesh.h[e], controls, data);
     return true;
 }
 

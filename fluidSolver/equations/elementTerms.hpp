@@ -13,45 +13,60 @@
 /// P1: gradients are constant; all integrals are exact from V, int N_a and int N_a N_b of the fluid part.
 #pragma once
 
+#include "core/lanes.hpp"
 
 namespace flotsam
 {
 
-template<int D>
-struct ElementData
+/// What tells elements apart. In the lanes of vectors all are plain: one density, not cut.
+template<class Real>
+struct ElementKind
+{
+    static constexpr bool isVarying = false;
+    static constexpr const double* second = nullptr;
+};
+
+template<>
+struct ElementKind<double>
+{
+    bool isVarying;                     ///< density varies: the mass matrix is lumped and the transport's mass fluxes convect
+    const double* second;               ///< N*N: int N_a N_b; null: not cut, V (1 + delta_ab)/(N (N + 1))
+};
+
+/// One element (Real is double) or several, one in each lane.
+template<int D, class Real = double>
+struct ElementData : ElementKind<Real>
 {
     static constexpr int N = D + 1;     ///< nodes
     static constexpr int B = D + 1;     ///< unknowns of a node: u, p
 
-    double volume;                      ///< fluid part [m^D]
-    double first[N];                    ///< int N_a
-    const double* second;               ///< N*N: int N_a N_b; null: not cut, V (1 + delta_ab)/(N (N + 1))
-    const double* gradN;                ///< N*D
-    double rho, mu;                     ///< density, viscosity at t^(n+1): means over the fluid part
+    Real volume;                        ///< fluid part [m^D]
+    Real first[N];                      ///< int N_a
+    const Real* gradN;                  ///< N*D
+    Real rho, mu;                       ///< density, viscosity at t^(n+1): means over the fluid part
     double c0;                          ///< du/dt = c0 u - history [1/s]
     /// d(rho u)/dt - 1/2 drho/dt u = inertia u - momentumHistory with BDF of rho u and rho: inertia =
     /// 1/2 (c0 rho - c1 rho^n - c2 rho^(n-1)) stays positive when a node turns from water to gas in one step, where
     /// c0 rho + 1/2 drho/dt does not (BDF1: Guermond & Quartapelle 2000, doi 10.1006/jcph.2000.6609).
-    double inertia;                     ///< [kg/(m^3 s)]
-    bool isVarying;                     ///< density varies: the mass matrix is lumped and the transport's mass fluxes convect
+    Real inertia;                       ///< [kg/(m^3 s)]
     bool isFirstOrder[N];               ///< nodes whose inertia is first order in time (varying)
-    double nodalInertia[N];             ///< like inertia, of the nodes (varying)
-    double convection[N*N];             ///< of row a by node b: half the mass flux from a to b, see loadConvection() [kg/s] (varying)
-    double streamlineDensity;           ///< of the SUPG terms [kg/m^3]
-    double forceShare[N];               ///< density of the node over the mean, - 1: see above (varying)
-    double densityRate[N];              ///< drho/dt at the nodes (their mean if not varying) [kg/(m^3 s)]
-    double tau, tauCont;                ///< [s], [Pa s]
-    double advection[D];                ///< a: mean over the fluid part [m/s]
-    double force[D];                    ///< f [N/m^3]
-    double history[N*D];                ///< nodal -(c1 u^n + c2 u^(n-1)) [m/s^2]
-    double momentumHistory[N*D];        ///< nodal -(c1 rho^n u^n + c2 rho^(n-1) u^(n-1)) [N/m^3]
-    double ag[N];                       ///< a . grad N_a, from prepare()
+    Real nodalInertia[N];               ///< like inertia, of the nodes (varying)
+    Real convection[N*N];               ///< of row a by node b: half the mass flux from a to b, see loadConvection() [kg/s] (varying)
+    Real streamlineDensity;             ///< of the SUPG terms [kg/m^3]
+    Real forceShare[N];                 ///< density of the node over the mean, - 1: see above (varying)
+    Real densityRate[N];                ///< drho/dt at the nodes (their mean if not varying) [kg/(m^3 s)]
+    Real tau, tauCont;                  ///< [s], [Pa s]
+    Real advection[D];                  ///< a: mean over the fluid part [m/s]
+    Real force[D];                      ///< f [N/m^3]
+    Real history[N*D];                  ///< nodal -(c1 u^n + c2 u^(n-1)) [m/s^2]
+    Real momentumHistory[N*D];          ///< nodal -(c1 rho^n u^n + c2 rho^(n-1) u^(n-1)) [N/m^3]
+    Real ag[N];                         ///< a . grad N_a, from prepare()
 
     void prepare()
     {
         for (int a = 0; a < N; ++a)
         {
-            double sum = 0;     // through ag every addition would wait for the last one's way to memory and back
+            Real sum{};     // through ag every addition would wait for the last one's way to memory and back
             for (int d = 0; d < D; ++d) sum += advection[d]*gradN[a*D + d];
             ag[a] = sum;
         }
@@ -59,38 +74,38 @@ struct ElementData
 };
 
 /// What a uniform steady velocity 1 leaves of inertia and convection in row a: 1/2 (drho/dt + div of the mass flux), integrated.
-template<int D>
-inline double massDefect(const ElementData<D>& e, int a)
+template<int D, class Real>
+inline Real massDefect(const ElementData<D, Real>& e, int a)
 {
     if (!e.isVarying) return 0.5*(e.densityRate[a]*e.first[a] - e.rho*e.ag[a]*e.volume);
-    double halfOutflow = 0;
+    Real halfOutflow{};
     for (int b = 0; b <= D; ++b) halfOutflow += e.convection[a*(D + 1) + b];
     return 0.5*e.densityRate[a]*e.first[a] + halfOutflow;
 }
 
 /// int N_a N_b for a != b of an element that is not cut; twice that for a = b.
-template<int D>
-inline double mixedMoment(const ElementData<D>& e)
+template<int D, class Real>
+inline Real mixedMoment(const ElementData<D, Real>& e)
 {
-    return e.volume/((D + 1)*(D + 2));
+    return e.volume*(1.0/((D + 1)*(D + 2)));
 }
 
 /// What all rows of an element have of its nodal histories.
-template<int D>
+template<int D, class Real>
 struct ElementHistory
 {
-    double velocity[D] = {};    ///< integral over the fluid part
-    double momentum[D] = {};    ///< one density, not cut: of the integral times N_a, but for the node's own second half
-    double residual[D];         ///< with the force over the density: what SUPG and PSPG have on the right
+    Real velocity[D] = {};  ///< integral over the fluid part
+    Real momentum[D] = {};  ///< one density, not cut: of the integral times N_a, but for the node's own second half
+    Real residual[D];       ///< with the force over the density: what SUPG and PSPG have on the right
 
-    explicit ElementHistory(const ElementData<D>& e)
+    explicit ElementHistory(const ElementData<D, Real>& e)
     {
         const bool isPlain = !e.isVarying && !e.second;
         for (int b = 0; b <= D; ++b)
             for (int k = 0; k < D; ++k) velocity[k] += e.first[b]*e.history[b*D + k];
         for (int b = 0; b <= D && isPlain; ++b)
             for (int k = 0; k < D; ++k) momentum[k] += e.momentumHistory[b*D + k];
-        const double mixed = mixedMoment(e), volumeOverRho = e.volume/e.rho;
+        const Real mixed = mixedMoment(e), volumeOverRho = e.volume/e.rho;
         for (int k = 0; k < D; ++k)
         {
             momentum[k] *= mixed;
@@ -99,24 +114,46 @@ struct ElementHistory
     }
 };
 
-/// Adds to the right-hand side of node a: history and body force with their SUPG and PSPG parts.
-template<int D>
-inline void addSource(const ElementData<D>& e, int a, const ElementHistory<D>& history, double* rhs)
+/// Right-hand side of node a: history and body force with their SUPG and PSPG parts.
+template<int D, class Real>
+struct NodeSource
 {
-    constexpr int N = D + 1;
-    const double* ga = e.gradN + a*D;
-    const double streamline = e.tau*e.streamlineDensity*e.ag[a];
-    const double forced = (e.isVarying ? 1 + e.forceShare[a] : 1)*e.first[a];
-    const double own = e.isVarying ? e.first[a] : e.second ? 0 : mixedMoment(e);
-    double pspg = 0;
-    for (int k = 0; k < D; ++k)
+    Real momentum[D], continuity{};
+
+    NodeSource(const ElementData<D, Real>& e, int a, const ElementHistory<D, Real>& history)
     {
-        double mass = history.momentum[k] + own*e.momentumHistory[a*D + k];
-        for (int b = 0; b < N && e.second && !e.isVarying; ++b) mass += e.second[a*N + b]*e.momentumHistory[b*D + k];
-        rhs[k] += mass + streamline*history.residual[k] + forced*e.force[k];
-        pspg += ga[k]*history.residual[k];
+        constexpr int N = D + 1;
+        const Real* ga = e.gradN + a*D;
+        const Real streamline = e.tau*e.streamlineDensity*e.ag[a];
+        const Real forced = e.isVarying ? (1 + e.forceShare[a])*e.first[a] : e.first[a];
+        const Real own = e.isVarying ? e.first[a] : e.second ? Real{} : mixedMoment(e);
+        for (int k = 0; k < D; ++k)
+        {
+            Real mass = history.momentum[k] + own*e.momentumHistory[a*D + k];
+            for (int b = 0; b < N && e.second && !e.isVarying; ++b) mass += e.second[a*N + b]*e.momentumHistory[b*D + k];
+            momentum[k] = mass + streamline*history.residual[k] + forced*e.force[k];
+            continuity += ga[k]*history.residual[k];
+        }
+        continuity *= e.tau;
     }
-    rhs[D] += e.tau*pspg;
+};
+
+/// u' = -tau (du/dt + a.grad u + (grad p - f)/rho) of the nodes' solution x (N*(D + 1)) [m/s].
+template<int D, class Real>
+inline void fineScaleVelocity(const ElementData<D, Real>& e, const Real* x, Real* result)
+{
+    const Real volume = 1/e.volume, density = 1/e.rho;
+    Real rate[D] = {}, gradP[D] = {};
+    for (int a = 0; a <= D; ++a)
+    {
+        const Real *u = x + a*(D + 1), mean = e.first[a]*volume, fromU = e.c0*mean + e.ag[a];
+        for (int d = 0; d < D; ++d)
+        {
+            rate[d] += fromU*u[d] - mean*e.history[a*D + d];
+            gradP[d] += e.gradN[a*D + d]*u[D];
+        }
+    }
+    for (int d = 0; d < D; ++d) result[d] = -e.tau*(rate[d] + (gradP[d] - e.force[d])*density);
 }
 
 } // namespace flotsam

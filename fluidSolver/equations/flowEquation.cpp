@@ -5,6 +5,7 @@
 #include "equations/elementLoader.hpp"
 #include "equations/gasRegion.hpp"
 #include "equations/materials.hpp"
+#include "equations/plainElements.hpp"
 #include "equations/shutPockets.hpp"
 
 #include <algorithm>
@@ -33,7 +34,8 @@ FlowEquation::FlowEquation(const SimplexMesh& mesh, const NodeGraph& graph, cons
     system_.dualVolume.resize(mesh.nOwned);
     system_.rhs.resize(std::size_t(mesh.nOwned)*(dim + 1));
     for (auto* v : {&nodal_.rho, &nodal_.rhoOld, &nodal_.rhoOlder, &nodal_.mu}) v->resize(mesh.nNodes);
-    nodal_.advection.resize(std::size_t(mesh.nNodes)*dim);
+    nodal_.fluid.resize(mesh.nNodes);
+    for (auto* v : {&nodal_.advection, &nodal_.history}) v->resize(std::size_t(mesh.nNodes)*dim);
     isOpen_.assign(mesh.nNodes, 0);
     for (const BoundaryPatch& p : patches)
         if (p.velocity == BoundaryPatch::Velocity::Open)
@@ -52,9 +54,16 @@ void FlowEquation::setMaterials()
         nodal_.rhoOlder[i] = fluid_.isTwoPhase ? density(fluid_, controls_, s.alphaOlder[i]) : nodal_.rho[i];
         nodal_.mu[i] = viscosity(fluid_, controls_, alpha);
     }
-    const double e = step_.time.extrapolation;
+    const auto isAlways = [&](int i, double rho) { return nodal_.rho[i] == rho && nodal_.rhoOld[i] == rho && nodal_.rhoOlder[i] == rho; };
+    for (int i = 0; i < mesh_.nNodes; ++i)
+        nodal_.fluid[i] = isAlways(i, fluid_.rhoLiquid) ? NodalData::Liquid : isAlways(i, fluid_.rhoGas) ? NodalData::Gas : NodalData::Mixed;
+    const TimeScheme& t = step_.time;
     const std::size_t n = std::size_t(mesh_.nNodes)*mesh_.dim;
-    for (std::size_t k = 0; k < n; ++k) nodal_.advection[k] = (1 + e)*s.u[k] - e*s.uOld[k];
+    for (std::size_t k = 0; k < n; ++k)
+    {
+        nodal_.advection[k] = (1 + t.extrapolation)*s.u[k] - t.extrapolation*s.uOld[k];
+        nodal_.history[k] = -(t.c1*s.u[k] + t.c2*s.uOld[k]);
+    }
 }
 
 void FlowEquation::assemble(const FlowStepData& step)
@@ -94,57 +103,132 @@ void FlowEquation::assemble(const FlowStepData& step)
 }
 
 /// Zeroes row i of the matrix unless that has been done. Just before its first use: the row then comes into the cache once instead of twice.
-void FlowEquation::startRow(int i, std::vector<char>& isStarted)
+void FlowEquation::startRow(int i)
 {
-    if (isStarted[i]) return;
-    isStarted[i] = 1;
+    if (isStarted_[i]) return;
+    isStarted_[i] = 1;
     system_.matrix.setZero(graph_.rowStart[i], graph_.rowStart[i + 1], mesh_.dim);
     std::fill(system_.schur.begin() + graph_.rowStart[i], system_.schur.begin() + graph_.rowStart[i + 1], 0.0);
 }
 
-template<int D>
-void FlowEquation::assembleElements()
+namespace
 {
-    constexpr int N = D + 1, B = D + 1;
-    ElementData<D> data;
+
+/// All elements below n: plain ones in full batches, each of the others alone.
+template<int width, class IsPlain, class Batch, class Single>
+inline void sweep(int n, const IsPlain& isPlain, const Batch& ofBatch, const Single& ofSingle)
+{
+    int batch[width], count = 0;
+    for (int e = 0; e < n; ++e)
+    {
+        if (!isPlain(e))
+        {
+            ofSingle(e);
+            continue;
+        }
+        batch[count++] = e;
+        if (count < width) continue;
+        ofBatch(batch);
+        count = 0;
+    }
+    for (int k = 0; k < count; ++k) ofSingle(batch[k]);
+}
+
+} // namespace
+
+/// Matrix, right-hand side and what is summed for each node of elements e[], one in each lane.
+template<int D, class Real>
+inline void FlowEquation::addElements(const int* e, const ElementData<D, Real>& data)
+{
+    constexpr int N = D + 1, B = D + 1, width = widthOf<Real>;
+    const int* nodes[width];
+    int slot[N*N][width];
+    for (int l = 0; l < width; ++l)
+    {
+        nodes[l] = &mesh_.elements[std::size_t(e[l])*N];
+        int slots[N*N];
+        graph_.slots<N>(e[l], nodes[l], mesh_.nOwned, slots);
+        for (int k = 0; k < N*N; ++k) slot[k][l] = slots[k];
+    }
+    const ElementHistory<D, Real> history(data);
+    const Real ofMass = 1/(data.mu + data.tauCont);
+    for (int a = 0; a < N; ++a)
+    {
+        const NodeSource<D, Real> source(data, a, history);
+        const Real defect = massDefect(data, a), mass = (data.isVarying ? data.nodalInertia[a] : data.inertia)*data.first[a];
+        const Real pressureMass = data.first[a]*ofMass;
+        for (int l = 0; l < width; ++l)
+        {
+            const int i = nodes[l][a];
+            if (i >= mesh_.nOwned) continue;
+            startRow(i);
+            double* rhs = &system_.rhs[std::size_t(i)*B];
+            addLane<D>(source.momentum, l, rhs);
+            rhs[D] += lane(source.continuity, l);
+            system_.dualVolume[i] += lane(data.first[a], l);
+            defect_[i] += lane(defect, l);
+            mass_[i] += lane(mass, l);
+            system_.pressureMass[i] += lane(pressureMass, l);
+            if constexpr (width == 1)   // plain elements have one density
+            {
+                carriesMass_[i] |= data.isVarying;
+                system_.isLight[i] |= nodal_.rho[i] < lightDensity*data.rho;
+            }
+        }
+    }
+    addElement(data, slot, system_);
+}
+
+/// Plain elements in lanes of `Real`.
+template<int D, class Real>
+inline void FlowEquation::assembleElementsIn()
+{
     defect_.assign(mesh_.nOwned, 0.0);
     carriesMass_.assign(mesh_.nOwned, 0);
     system_.isLight.assign(mesh_.nOwned, 0);
     mass_.assign(mesh_.nOwned, 0.0);
     swept_.assign(mesh_.nOwned, 0.0);
-    std::vector<char> isStarted(mesh_.nOwned, 0);
+    isStarted_.assign(mesh_.nOwned, 0);
     double viscous[2] = {}; // elements; sum of their mu dt/(rho h^2)
-    for (int e = 0; e < mesh_.nInnerElements; ++e)
+    PlainElements<D, Real> plain;
+    ElementData<D> data;
+    const auto countViscous = [&](int e, double mu, double rho)
     {
-        if (!loadElement<D>(e, data)) continue;
-        const int* nodes = &mesh_.elements[std::size_t(e)*N];
-        const ElementHistory<D> history(data);
-        if (mesh_.isOwnedElement[e])
+        if (!mesh_.isOwnedElement[e]) return;
+        viscous[0] += 1;
+        viscous[1] += mu*step_.time.dt/(rho*mesh_.h[e]*mesh_.h[e]);
+    };
+    rows_.start(mesh_, mesh_.nInnerElements);
+    const auto isPlainNext = [&](int e)
+    {
+        rows_.fetch(e, mesh_, graph_, system_);
+        return isPlain<D>(e, mesh_, step_, nodal_);
+    };
+    sweep<widthOf<Real>>(mesh_.nInnerElements, isPlainNext,
+        [&](const int* elements)
         {
-            viscous[0] += 1;
-            viscous[1] += data.mu*step_.time.dt/(data.rho*mesh_.h[e]*mesh_.h[e]);
-        }
-        const double pressureMass = 1/(data.mu + data.tauCont);
-        for (int a = 0; a < N; ++a)
+            plain.loadResidual(elements, mesh_, step_, controls_, nodal_);
+            plain.loadInertia(controls_);
+            addElements(elements, plain.data);
+            for (int l = 0; l < widthOf<Real>; ++l) countViscous(elements[l], plain.data.mu[l], plain.data.rho[l]);
+        },
+        [&](int e)
         {
-            const int i = nodes[a];
-            if (i >= mesh_.nOwned) continue;
-            startRow(i, isStarted);
-            addSource(data, a, history, &system_.rhs[std::size_t(i)*B]);
-            system_.dualVolume[i] += data.first[a];
-            defect_[i] += massDefect(data, a);
-            carriesMass_[i] |= data.isVarying;
-            system_.isLight[i] |= nodal_.rho[i] < lightDensity*data.rho;
-            mass_[i] += (data.isVarying ? data.nodalInertia[a] : data.inertia)*data.first[a];
-            system_.pressureMass[i] += data.first[a]*pressureMass;
-        }
-        int slot[N*N];
-        graph_.slots<N>(e, nodes, mesh_.nOwned, slot);
-        addElement(data, slot, system_);
-    }
-    for (int i = 0; i < mesh_.nOwned; ++i) startRow(i, isStarted);
+            if (!loadElement<D>(e, data)) return;
+            addElements(&e, data);
+            countViscous(e, data.mu, data.rho);
+        });
+    for (int i = 0; i < mesh_.nOwned; ++i) startRow(i);
     halo_.sum(viscous, 2);
     system_.viscousNumber = viscous[0] > 0 ? viscous[1]/viscous[0] : 0;
+}
+
+template<int D> FLOTSAM_WIDE_LANES void FlowEquation::assembleElementsWide() { assembleElementsIn<D, Lanes4>(); }
+
+template<int D>
+void FlowEquation::assembleElements()
+{
+    if (hasWideLanes()) assembleElementsWide<D>(); else assembleElementsIn<D, Lanes2>();
 }
 
 /// Takes from the rows of the nodes around varying densities what inertia and convection leave of a uniform velocity: the rest of
@@ -200,34 +284,43 @@ void FlowEquation::coupleToNeighbours(int i, double value)
     for (int k = graph_.rowStart[i]; k < graph_.rowStart[i + 1]; ++k) addVelocity<D>(k, value*weight(k)/sum);
 }
 
+template<int D, class Real>
+inline void FlowEquation::fineScaleIn(const std::vector<double>& x, std::vector<double>& result) const
+{
+    constexpr int N = D + 1, B = D + 1;
+    PlainElements<D, Real> plain;
+    ElementData<D> data;
+    ElementSource source;
+    sweep<widthOf<Real>>(mesh_.nElements, [&](int e) { return isPlain<D>(e, mesh_, step_, nodal_); },
+        [&](const int* elements)
+        {
+            Real u[N*B], r[D];
+            plain.loadResidual(elements, mesh_, step_, controls_, nodal_);
+            for (int a = 0; a < N; ++a)
+                for (int k = 0; k < B; ++k) u[a*B + k] = plain.ofNode(x.data(), B, a, k);
+            fineScaleVelocity(plain.data, u, r);
+            for (int l = 0; l < widthOf<Real>; ++l)
+                for (int d = 0; d < D; ++d) result[std::size_t(elements[l])*D + d] = r[d][l];
+        },
+        [&](int e)
+        {
+            double u[N*B], *r = &result[std::size_t(e)*D];
+            std::fill(r, r + D, 0.0);
+            if (!loadResidualData<D>(e, mesh_, step_, controls_, nodal_, data, source)) return;
+            for (int a = 0; a < N; ++a) std::copy_n(&x[std::size_t(mesh_.elements[std::size_t(e)*N + a])*B], B, u + a*B);
+            fineScaleVelocity(data, u, r);
+        });
+}
+
+template<int D> FLOTSAM_WIDE_LANES void FlowEquation::fineScaleWide(const std::vector<double>& x, std::vector<double>& result) const
+{
+    fineScaleIn<D, Lanes4>(x, result);
+}
+
 template<int D>
 void FlowEquation::fineScaleT(const std::vector<double>& x, std::vector<double>& result) const
 {
-    constexpr int N = D + 1, B = D + 1;
-    ElementData<D> data;
-    ElementSource source;
-    for (int e = 0; e < mesh_.nElements; ++e)
-    {
-        double* r = &result[std::size_t(e)*D];
-        if (!loadResidualData<D>(e, mesh_, step_, controls_, nodal_, data, source))
-        {
-            std::fill(r, r + D, 0.0);
-            continue;
-        }
-        const int* nodes = &mesh_.elements[std::size_t(e)*N];
-        const double volume = 1/data.volume, density = 1/data.rho;
-        double rate[D] = {}, gradP[D] = {};
-        for (int a = 0; a < N; ++a)
-        {
-            const double *u = &x[std::size_t(nodes[a])*B], mean = data.first[a]*volume, fromU = data.c0*mean + data.ag[a];
-            for (int d = 0; d < D; ++d)
-            {
-                rate[d] += fromU*u[d] - mean*data.history[a*D + d];
-                gradP[d] += data.gradN[a*D + d]*u[D];
-            }
-        }
-        for (int d = 0; d < D; ++d) r[d] = -data.tau*(rate[d] + (gradP[d] - data.force[d])*density);
-    }
+    if (hasWideLanes()) fineScaleWide<D>(x, result); else fineScaleIn<D, Lanes2>(x, result);
 }
 
 void FlowEquation::fineScale(const std::vector<double>& x, std::vector<double>& result) const

@@ -4,6 +4,7 @@
 
 #include "algebra/flowSystem.hpp"
 #include "equations/elementLoader.hpp"
+#include "equations/rowPrefetch.hpp"
 #include "equations/volumeFlux.hpp"
 
 namespace flotsam
@@ -60,8 +61,11 @@ public:
     const FlowSystem& system() const { return system_; }
 
 private:
-    void startRow(int i, std::vector<char>& isStarted);
+    void startRow(int i);
+    template<int D, class Real> void addElements(const int* e, const ElementData<D, Real>& data);
     template<int D> void assembleElements();
+    template<int D> void assembleElementsWide();
+    template<int D, class Real> void assembleElementsIn();
     template<int D> void keepSweptMass();
     template<int D> void removeMassDefect();
     template<int D> void addVelocity(int slot, double value);
@@ -82,6 +86,8 @@ private:
     void applyGasEdge(std::vector<double>& x) const;
     double gasPressure(int i) const;
     template<int D> void fineScaleT(const std::vector<double>&, std::vector<double>&) const;
+    template<int D> void fineScaleWide(const std::vector<double>&, std::vector<double>&) const;
+    template<int D, class Real> void fineScaleIn(const std::vector<double>&, std::vector<double>&) const;
     template<int D, class Element> bool loadElement(int e, Element& data) const
     {
         return loadElementData<D>(e, mesh_, step_, fluid_, controls_, nodal_, data);
@@ -99,6 +105,8 @@ private:
     FlowStepData step_;
     FlowSystem system_;
     NodalData nodal_;
+    RowPrefetch rows_;
+    std::vector<char> isStarted_;               // owned nodes: see startRow()
     std::vector<double> defect_;                // owned nodes: see massDefect()
     std::vector<double> mass_, swept_;          // owned nodes: inertia of the fluid there; what moving surfaces take from it, a half [kg/s]
     std::vector<char> carriesMass_, isOpen_;    // nodes of varying elements; nodes on open patches

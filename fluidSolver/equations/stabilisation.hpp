@@ -2,42 +2,46 @@
 /// Stabilisation parameters of the P1/P1 formulation (paper eq 5; Tezduyar 1991, doi 10.1016/S0065-2156(08)70153-4).
 #pragma once
 
-#include <cmath>
+#include "core/lanes.hpp"
 
 namespace flotsam
 {
 
 /// Squares of the rates at which time steps, convection and viscosity change what an element holds [1/s^2], the viscous one by nu/h^2.
+template<class Real>
 struct ElementRates
 {
-    double transient = 0, convective = 0, viscous = 0;
+    double transient = 0;
+    Real convective{}, viscous{};
 
     ElementRates() = default;
-    ElementRates(double dt, double squaredSpeed, double h, double nu) : transient(4/(dt*dt)), viscous(nu*nu/(h*h*h*h)) { setSpeed(squaredSpeed, h); }
+    ElementRates(double dt, const Real& squaredSpeed, const Real& h, const Real& nu) : transient(4/(dt*dt)), viscous(nu*nu/(h*h*h*h)) { setSpeed(squaredSpeed, h); }
 
-    void setSpeed(double squaredSpeed, double h) { convective = 4*squaredSpeed/(h*h); }
+    void setSpeed(const Real& squaredSpeed, const Real& h) { convective = 4*squaredSpeed/(h*h); }
 
     /// 1/T [1/s], T the time in which an element passes on what happens in it: Tezduyar's tau. The time step belongs into it: without it the
     /// two-phase scheme blows up within 30 steps (docs/numerics.md).
-    double elementRate() const { return std::sqrt(transient + convective + 12*12*viscous); }
+    Real elementRate() const { return squareRoot<Real>(transient + convective + 12*12*viscous); }
 
     /// tau of SUPG and PSPG [s]: multiplies the momentum residual divided by rho. Where inertia counts `factor` times T (all of it damps vortices),
     /// where viscosity does 3/4 of T (with less the pressure beside cut elements converges slower than with order 1.5, with more the velocity is worse).
-    double tauMomentum(double factor) const { return factor/std::sqrt(transient + convective + factor*factor*16*16*viscous); }
+    Real tauMomentum(double factor) const { return factor/squareRoot<Real>(transient + convective + factor*factor*16*16*viscous); }
 
     /// Share of u' that convects (0..1): the inertial part of T. The residual of P1 lacks the viscous stress, u' is wrong where that matters, and there it
     /// oscillates from step to step (lid-driven cavity at Re 100); convection is of no importance in such elements.
-    double convectingShare() const
+    Real convectingShare() const
     {
-        const double inertial = transient + convective;
+        const Real inertial = transient + convective;
         return inertial/(inertial + 12*12*viscous);
     }
 };
 
 /// tau_cont [Pa s] of the grad-div term: rho h^2/(12 T) (with the time step) or rho (nu + |a| h/2) (without).
-inline double tauContinuity(bool withTimeStep, double rho, double squaredSpeed, double h, double nu, const ElementRates& rates)
+template<class Real>
+inline Real tauContinuity(bool withTimeStep, const Real& rho, const Real& squaredSpeed, const Real& h, const Real& nu, const ElementRates<Real>& rates)
 {
-    return rho*(withTimeStep ? h*h/12*rates.elementRate() : nu + 0.5*std::sqrt(squaredSpeed)*h);
+    if (withTimeStep) return rho*(h*h/12*rates.elementRate());
+    return rho*(nu + 0.5*squareRoot(squaredSpeed)*h);
 }
 
 } // namespace flotsam
