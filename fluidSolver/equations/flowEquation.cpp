@@ -22,7 +22,8 @@ constexpr double lightDensity = 0.1;  // of a light node over the mean of an ele
 
 FlowEquation::FlowEquation(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const FluidProperties& fluid,
     const NumericsControls& controls, const std::vector<BoundaryPatch>& patches)
-:   mesh_(mesh), graph_(graph), halo_(halo), fluid_(fluid), controls_(controls), patches_(patches)
+:   mesh_(mesh), graph_(graph), halo_(halo), fluid_(fluid), controls_(controls), patches_(patches),
+    viscousForce_(mesh, halo)
 {
     const int dim = mesh.dim;
     system_.dim = dim;
@@ -61,6 +62,8 @@ void FlowEquation::assemble(const FlowStepData& step)
 {
     step_ = step;
     setMaterials();
+    if (controls_.viscousResidual && viscousForce_.find(nodal_.rho, nodal_.mu, nodal_.advection, step_.cover, step_.time.dt))
+        step_.viscousForce = &viscousForce_.values();
     std::fill(system_.rhs.begin(), system_.rhs.end(), 0.0);
     std::fill(system_.pressureMass.begin(), system_.pressureMass.end(), 0.0);
     std::fill(system_.dualVolume.begin(), system_.dualVolume.end(), 0.0);
@@ -226,7 +229,7 @@ void FlowEquation::fineScaleT(const std::vector<double>& x, std::vector<double>&
                 gradP[d] += data.gradN[a*D + d]*u[D];
             }
         }
-        for (int d = 0; d < D; ++d) r[d] = -data.tau*(rate[d] + (gradP[d] - data.force[d])*density);
+        for (int d = 0; d < D; ++d) r[d] = -data.tau*(rate[d] + (gradP[d] - data.force[d] - data.viscousForce[d])*density);
     }
 }
 
