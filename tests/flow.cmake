@@ -6,6 +6,7 @@ flotsam_test(tankAtRest verification SOURCES verification/tankAtRest.cpp
 flotsam_test(slipEdge verification SOURCES verification/slipEdge.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(liquidShares unit SOURCES unit/liquidShares.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
+flotsam_test(viscousForce unit SOURCES unit/viscousForce.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(slipNormals unit SOURCES unit/slipNormals.cpp LIBRARIES flotsam_equations)
 flotsam_test(plainElements unit SOURCES unit/plainElements.cpp LIBRARIES flotsam_equations flotsam_test_support)
 target_compile_options(test_plainElements PRIVATE -Wno-psabi)

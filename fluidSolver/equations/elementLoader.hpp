@@ -179,6 +179,8 @@ inline bool loadResidualData(int e, const SimplexMesh& mesh, const FlowStepData&
         }
     for (int d = 0; d < D; ++d)
         data.force[d] = step.elementForce ? (*step.elementForce)[std::size_t(e)*D + d] : 0;
+    for (int d = 0; d < D; ++d)
+        data.viscousForce[d] = step.viscousForce ? (*step.viscousForce)[std::size_t(e)*D + d] : 0;
     data.prepare();
     return true;
 }

@@ -4,7 +4,7 @@
 /// Weak form (paper eq 5, momentum convection skew-symmetric, see docs/numerics.md):
 ///   (w, d(rho u)/dt - 1/2 drho/dt u) + 1/2 [(w, rho a.grad u) - (rho a.grad w, u)]              inertia, convection
 /// + (eps(w), 2 mu eps(u)) - (div w, p) + (q, div u) + (div w, tau_c div u)                      stress, continuity
-/// + sum_e (tau a.grad w + tau grad q/rho, rho (du/dt + a.grad u) + grad p - f) = (w, f)         SUPG, PSPG
+/// + sum_e (tau a.grad w + tau grad q/rho, rho (du/dt + a.grad u) + grad p - mu lap u - f) = (w, f)  SUPG, PSPG
 /// a = u + u', u' = -tau (residual)/rho of the last step: only the sum is free of divergence, and momentum is conserved by what is
 /// (Hughes & Wells 2005, doi 10.1016/j.cma.2004.06.034).
 /// Where the density varies mass is lumped with the nodes' own densities, and the force grad p - f of an element goes to its nodes in proportion
@@ -58,6 +58,7 @@ struct ElementData : ElementKind<Real>
     Real tau, tauCont;                  ///< [s], [Pa s]
     Real advection[D];                  ///< a: mean over the fluid part [m/s]
     Real force[D];                      ///< f [N/m^3]
+    Real viscousForce[D];               ///< mu lap u of the residual [N/m^3]
     Real history[N*D];                  ///< nodal -(c1 u^n + c2 u^(n-1)) [m/s^2]
     Real momentumHistory[N*D];          ///< nodal -(c1 rho^n u^n + c2 rho^(n-1) u^(n-1)) [N/m^3]
     Real ag[N];                         ///< a . grad N_a, from prepare()
@@ -96,7 +97,7 @@ struct ElementHistory
 {
     Real velocity[D] = {};  ///< integral over the fluid part
     Real momentum[D] = {};  ///< one density, not cut: of the integral times N_a, but for the node's own second half
-    Real residual[D];       ///< with the force over the density: what SUPG and PSPG have on the right
+    Real residual[D];       ///< with the forces over the density: what SUPG and PSPG have on the right
 
     explicit ElementHistory(const ElementData<D, Real>& e)
     {
@@ -109,7 +110,7 @@ struct ElementHistory
         for (int k = 0; k < D; ++k)
         {
             momentum[k] *= mixed;
-            residual[k] = velocity[k] + volumeOverRho*e.force[k];
+            residual[k] = velocity[k] + volumeOverRho*(e.force[k] + e.viscousForce[k]);
         }
     }
 };
@@ -138,7 +139,7 @@ struct NodeSource
     }
 };
 
-/// u' = -tau (du/dt + a.grad u + (grad p - f)/rho) of the nodes' solution x (N*(D + 1)) [m/s].
+& of the nodes' solution x (N*(D + 1)) [m/s].
 template<int D, class Real>
 inline void fineScaleVelocity(const ElementData<D, Real>& e, const Real* x, Real* result)
 {
@@ -153,7 +154,7 @@ inline void fineScaleVelocity(const ElementData<D, Real>& e, const Real* x, Real
             gradP[d] += e.gradN[a*D + d]*u[D];
         }
     }
-    for (int d = 0; d < D; ++d) result[d] = -e.tau*(rate[d] + (gradP[d] - e.force[d])*density);
+    for (int d = 0; d < D; ++d) result[d] = -e.tau*(rate[d] + (gradP[d] - e.force[d] - e.viscousForce[d])*density);
 }
 
 } // namespace flotsam

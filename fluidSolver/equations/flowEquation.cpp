@@ -23,7 +23,8 @@ constexpr double lightDensity = 0.1;  // of a light node over the mean of an ele
 
 FlowEquation::FlowEquation(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const FluidProperties& fluid,
     const NumericsControls& controls, const std::vector<BoundaryPatch>& patches)
-:   mesh_(mesh), graph_(graph), halo_(halo), fluid_(fluid), controls_(controls), patches_(patches)
+:   mesh_(mesh), graph_(graph), halo_(halo), fluid_(fluid), controls_(controls), patches_(patches),
+    viscousForce_(mesh, halo)
 {
     const int dim = mesh.dim;
     system_.dim = dim;
@@ -70,6 +71,8 @@ void FlowEquation::assemble(const FlowStepData& step)
 {
     step_ = step;
     setMaterials();
+    if (controls_.viscousResidual && viscousForce_.find(nodal_.rho, nodal_.mu, nodal_.advection, step_.cover, step_.time.dt))
+        step_.viscousForce = &viscousForce_.values();
     std::fill(system_.rhs.begin(), system_.rhs.end(), 0.0);
     std::fill(system_.pressureMass.begin(), system_.pressureMass.end(), 0.0);
     std::fill(system_.dualVolume.begin(), system_.dualVolume.end(), 0.0);

@@ -5,6 +5,7 @@
 #include "algebra/flowSystem.hpp"
 #include "equations/elementLoader.hpp"
 #include "equations/rowPrefetch.hpp"
+#include "equations/viscousForce.hpp"
 #include "equations/volumeFlux.hpp"
 
 namespace flotsam
@@ -46,7 +47,7 @@ public:
     /// Writes prescribed velocities and pressures into x (nNodes*(dim+1)).
     void applyConstraints(const std::vector<PatchValues>& values, std::vector<double>& x) const;
 
-    /// u' = -tau (du/dt + a.grad u + (grad p - f)/rho) of the solution x, per element (nElements*dim) [m/s]; du/dt = c0 x + c1 u^n + c2 u^(n-1): the state
+    /// u' = -tau (du/dt + a.grad u + (grad p - mu lap u - f)/rho) of the solution x, per element (nElements*dim) [m/s]; du/dt = c0 x + c1 u^n + c2 u^(n-1): the state
     /// must still hold t^n. The continuity rows then are those of x + u'.
     void fineScale(const std::vector<double>& x, std::vector<double>& result) const;
 
@@ -107,6 +108,7 @@ private:
     NodalData nodal_;
     RowPrefetch rows_;
     std::vector<char> isStarted_;               // owned nodes: see startRow()
+    ViscousForce viscousForce_;
     std::vector<double> defect_;                // owned nodes: see massDefect()
     std::vector<double> mass_, swept_;          // owned nodes: inertia of the fluid there; what moving surfaces take from it, a half [kg/s]
     std::vector<char> carriesMass_, isOpen_;    // nodes of varying elements; nodes on open patches

@@ -60,6 +60,7 @@ struct PlainElements
         for (int d = 0; d < D && step.fineScale; ++d) fineScale[d] = ofElement(*step.fineScale, elements, d);
         rates = addFineScale<D, Real>(step.fineScale ? fineScale : nullptr, h, step.time.dt, controls, data);
         for (int d = 0; d < D; ++d) data.force[d] = step.elementForce ? ofElement(*step.elementForce, elements, d) : Real{};
+        for (int d = 0; d < D; ++d) data.viscousForce[d] = step.viscousForce ? ofElement(*step.viscousForce, elements, d) : Real{};
         data.prepare();
     }
 

@@ -38,6 +38,7 @@ const std::vector<ControlEntry>& controlsTable()
         {"tauFactor", &N::tauFactor, {0, 10, true}, "tau of SUPG and PSPG over Tezduyar's where inertia counts"},
         {"tauContFactor", &N::tauContFactor, {0, 100}, "multiplies the continuity stabilisation"},
         {"tauContWithTimeStep", &N::tauContWithTimeStep, anyValue, "on: time step within the stabilisation time; off: steady form"},
+        {"viscousResidual", &N::viscousResidual, anyValue, "on: viscous force in the residual of SUPG and PSPG; off: without"},
         {"nitsche", &N::nitsche, anyValue, "on: Nitsche condition on solids; off: pure penalty (entry penalty)"},
         {"nitscheGamma", &N::nitscheGamma, {0, 1e6}, "coefficient of mu/h of the Nitsche condition"},
         {"penalty", &N::penalty, {0, 1e12, true}, "pure penalty coefficient [Pa s/m], used with nitsche off"},

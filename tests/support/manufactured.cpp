@@ -66,7 +66,7 @@ ExactFlow potentialFlow(int dim)
 }
 
 ErrorTable steadyErrors(int dim, const char* title, const ExactFlow& exact, double rho, double mu, const std::vector<int>& sizes,
-    double moved)
+    double moved, bool viscousResidual)
 {
     usePetsc();
     ErrorTable table(title);
@@ -79,6 +79,7 @@ ErrorTable steadyErrors(int dim, const char* title, const ExactFlow& exact, doub
         fluid.muLiquid = mu;
         NumericsControls controls;
         controls.timeOrder = 1;
+        controls.viscousResidual = viscousResidual;
         controls.tolerance = 1e-8;
         controls.restart = 200;
         controls.maxIterations = 2000;
