@@ -113,13 +113,27 @@ void weighCells(const Foam::fvMesh& mesh, const MeshAdapter& adapter, const Halo
         << Foam::endl;
 }
 
+/// Axis along which gravity acts most; -1: none.
+int verticalAxis(const std::array<double, 3>& gravity)
+{
+    int axis = -1;
+    double largest = 0;
+    for (int d = 0; d < 3; ++d)
+    {
+        if (!(std::abs(gravity[d]) > largest)) continue;
+        axis = d;
+        largest = std::abs(gravity[d]);
+    }
+    return axis;
+}
+
 enum class Task { Run, Check, WeighCells };
 
 void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
 {
     PetscSession petsc(MPI_COMM_WORLD);
     const CaseControls controls = readCaseControls(runTime);
-    const MeshAdapter adapter = makeSimplexMesh(mesh, MPI_COMM_WORLD);
+    const MeshAdapter adapter = makeSimplexMesh(mesh, MPI_COMM_WORLD, verticalAxis(controls.fluid.gravity));
     const Halo halo(adapter.mesh, MPI_COMM_WORLD);
     const std::vector<BoundaryPatch> boundary = readBoundary(mesh, adapter, halo, controls);
     FoamFields fields(mesh, adapter, halo, controls);

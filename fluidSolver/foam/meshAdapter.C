@@ -3,6 +3,7 @@
 
 #include "algebra/meshHalo.hpp"
 #include "foam/simplexSplit.H"
+#include "foam/splitOrder.H"
 
 #include "cyclicPolyPatch.H"
 #include "emptyPolyPatch.H"
@@ -175,7 +176,7 @@ void fillNodes(const polyMesh& mesh, const SimplexSplit& split, const labelList&
 
 } // namespace
 
-MeshAdapter makeSimplexMesh(const polyMesh& mesh, MPI_Comm comm)
+MeshAdapter makeSimplexMesh(const polyMesh& mesh, MPI_Comm comm, int vertical)
 {
     checkPatches(mesh);
     const bool planar = isPlanar(mesh);
@@ -185,7 +186,9 @@ MeshAdapter makeSimplexMesh(const polyMesh& mesh, MPI_Comm comm)
     LocalSimplices local;
     local.dim = planar ? 2 : 3;
     const labelList patchOfFace = listPatches(mesh, local);
-    SimplexSplit split = planar ? splitIntoTriangles(mesh, plane, keys, patchOfFace) : splitIntoTetrahedra(mesh, keys, patchOfFace);
+    const bool isAcrossPlane = planar && vertical == plane.axes[2];
+    const labelList order = splitOrder(mesh, keys, vertical < 0 || isAcrossPlane ? plane.axes[planar ? 1 : 2] : vertical);
+    SimplexSplit split = planar ? splitIntoTriangles(mesh, plane, order, patchOfFace) : splitIntoTetrahedra(mesh, order, patchOfFace);
     const std::vector<int> node = numberVertices(split, mesh.nPoints());
     fillNodes(mesh, split, keys, plane.axes, node, local);
     local.facePatch.swap(split.facePatch);
