@@ -139,7 +139,7 @@ struct NodeSource
     }
 };
 
-& of the nodes' solution x (N*(D + 1)) [m/s].
+/// u' = -tau (du/dt + a.grad u + (grad p - f - mu lap u)/rho) of the nodes' solution x (N*(D + 1)) [m/s].
 template<int D, class Real>
 inline void fineScaleVelocity(const ElementData<D, Real>& e, const Real* x, Real* result)
 {
