@@ -16,7 +16,6 @@ namespace
 {
 
 constexpr double reduction = 0.1;   // of the residual by a solve, at least
-constexpr double farStart = 50;     // tolerances from the solution: of changes of the flow, not of what solves have left
 constexpr double negligible = 1e-3; // of the tolerance: a residual that needs no solve
 
 /// Arrays of two vectors for the time of a product.
@@ -259,9 +258,9 @@ SolveReport FlowLinearSolver::solve(const SetStart& setStart, std::vector<double
     if (!isNumber) return report;
     // An extrapolated start may meet the tolerance by itself (the gas hardly counts in the norm), and taken as the solution step after step it
     // grows: a gas jet of 12 m/s over a flume, without an iteration. What is left of smooth pressures is small in the continuity rows and, a step later, large in the
-    // momentum rows, where the whole extrapolation makes up to three times as much of it: a start that is not far has the share that leaves the least
+    // momentum rows, where the whole extrapolation makes up to three times as much of it: a solve that ends near its start begins with the share that leaves the least
     const double wanted = me.wanted(x, norm);
-    if (setStart && first < farStart*me.controls.tolerance*norm) me.searchStart(setStart, x, q, first);
+    if (setStart && reduction*first < wanted) me.searchStart(setStart, x, q, first);
     const double target = std::max(std::min(wanted, reduction*first), negligible*me.controls.tolerance*norm);
     if (first <= target || first == 0)
     {
