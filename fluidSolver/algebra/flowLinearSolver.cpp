@@ -15,7 +15,8 @@ namespace flotsam
 namespace
 {
 
-constexpr double reduction = 0.1;   // of the residual by a solve, at least
+constexpr double startReduction = 0.02; // of the residual by a solve that starts from values extrapolated in time
+constexpr double repeatReduction = 0.1; // by one that follows a change of the contact load
 constexpr double negligible = 1e-3; // of the tolerance: a residual that needs no solve
 
 /// Arrays of two vectors for the time of a product.
@@ -118,49 +119,33 @@ struct FlowLinearSolver::Implementation
         check(KSPSetPCSide(krylov, PC_RIGHT)); // after the options: applyPreconditionedMatrix() knows no other
     }
 
-    /// Residual into `out`; returns the norm of the right-hand side.
-    double residualInto(Vec out, const std::vector<double>& x, const std::vector<double>& q)
-    {
-        PetscScalar* r;
-        check(VecGetArray(out, &r));
-        const double norm = system.residual(x, q, r);
-        check(VecRestoreArray(out, &r));
-        return norm;
-    }
-
     /// Residual into rhs; its norm and that of the right-hand side.
     void setResidual(const std::vector<double>& x, const std::vector<double>& q, double& first, double& norm)
     {
-        norm = residualInto(rhs, x, q);
+        PetscScalar* r;
+        check(VecGetArray(rhs, &r));
+        norm = system.residual(x, q, r);
+        check(VecRestoreArray(rhs, &r));
         check(VecNorm(rhs, NORM_2, &first));
     }
 
-    /// The residual to stop at, given that of the start (in rhs) and the norm of the right-hand side; not yet by how much the start's has to fall.
-    double wanted(const std::vector<double>& x, double norm)
+    /// The residual to stop at, given that of the start (in rhs, norm `first`) and the norm of the right-hand side.
+    double target(const std::vector<double>& x, double first, double norm)
     {
-        const double byTolerance = controls.tolerance*norm;
+        double wanted = controls.tolerance*norm;
+        const double smallest = negligible*wanted;
         // The right-hand side is mostly inertia over the time step, 150 times the forces in a vortex street: whoever looks at a solid wants these
-        if (!system.hasSolids()) return byTolerance;
-        const PetscScalar* r;
-        check(VecGetArrayRead(rhs, &r));
-        const double byForces = controls.forceTolerance*system.forceNorm(x, r);
-        check(VecRestoreArrayRead(rhs, &r));
-        return std::min(byTolerance, byForces);
-    }
-
-    /// From the whole extrapolation, its residual in rhs (norm `first`), to the share of it with the least residual.
-    void searchStart(const SetStart& setStart, std::vector<double>& x, const std::vector<double>& q, double& first)
-    {
-        setStart(0, x);
-        residualInto(solution, x, q);           // free until the solve
-        check(VecAXPY(solution, -1, rhs));      // of the way back to the last solution
-        PetscScalar along, square;
-        check(VecDot(rhs, solution, &along));
-        check(VecDot(solution, solution, &square));
-        const double back = square > 0 ? -along/square : 0;
-        check(VecAXPY(rhs, back, solution));
-        check(VecNorm(rhs, NORM_2, &first));
-        setStart(1 - back, x);
+        if (system.hasSolids())
+        {
+            const PetscScalar* r;
+            check(VecGetArrayRead(rhs, &r));
+            wanted = std::min(wanted, controls.forceTolerance*system.forceNorm(x, r));
+            check(VecRestoreArrayRead(rhs, &r));
+        }
+        // An extrapolated start may meet the tolerance by itself (the gas hardly counts in the norm), and taken as the solution step after step it
+        // grows: a gas jet of 12 m/s over a flume, without an iteration. What is left of smooth pressures is small in the continuity rows and, a step later, large in the
+        // momentum rows, by up to the elements in a wave: a solve must gain more than that loses
+        return std::max(std::min(wanted, (isNewMatrix ? startReduction : repeatReduction)*first), smallest);
     }
 
     /// Iterations that the present preconditioner gets after those of earlier attempts. Bodies that shift in a jam can make an old hierarchy fail all at once: it gets one cycle of GMRES.
@@ -240,28 +225,17 @@ void FlowLinearSolver::setSystem(const FlowSystem& system)
 
 SolveReport FlowLinearSolver::solve(std::vector<double>& x, std::vector<double>& q)
 {
-    return solve(nullptr, x, q);
-}
-
-SolveReport FlowLinearSolver::solve(const SetStart& setStart, std::vector<double>& x, std::vector<double>& q)
-{
     NoFloatingPointTraps guard;
     Implementation& me = *impl_;
     SolveReport report;
     report.rebuiltPreconditioner = me.isNewMatrix && me.system.pressure().isNew();
     double first = 0, norm = 0;
-    if (setStart) setStart(1, x);
     me.setResidual(x, q, first, norm);
     const double unbalanced = report.unbalancedVolume = me.system.unbalancedVolume();
     const bool isNumber = norm < 1e300 && first < 1e300; // otherwise the caller repeats the step
     report.initial = report.final = !isNumber ? std::numeric_limits<double>::infinity() : norm > 0 ? first/norm : 0;
     if (!isNumber) return report;
-    // An extrapolated start may meet the tolerance by itself (the gas hardly counts in the norm), and taken as the solution step after step it
-    // grows: a gas jet of 12 m/s over a flume, without an iteration. What is left of smooth pressures is small in the continuity rows and, a step later, large in the
-    // momentum rows, where the whole extrapolation makes up to three times as much of it: a solve that ends near its start begins with the share that leaves the least
-    const double wanted = me.wanted(x, norm);
-    if (setStart && reduction*first < wanted) me.searchStart(setStart, x, q, first);
-    const double target = std::max(std::min(wanted, reduction*first), negligible*me.controls.tolerance*norm);
+    const double target = me.target(x, first, norm);
     if (first <= target || first == 0)
     {
         report.hasConverged = true;

@@ -10,7 +10,6 @@
 #include "algebra/flowOperator.hpp"
 #include "core/controls.hpp"
 
-#include <functional>
 #include <memory>
 
 namespace flotsam
@@ -39,11 +38,6 @@ public:
     /// Improves x (nNodes*(dim+1), constraints already satisfied, halo up to date) and q (nDof per solid; entries of solids
     /// that are not free are data). Repeated calls after a change of a solid's rhs need no new setSystem().
     SolveReport solve(std::vector<double>& x, std::vector<double>& q);
-
-    /// Writes the last solution plus `share` of its extrapolation in time into x, as solve() needs it.
-    using SetStart = std::function<void(double share, std::vector<double>& x)>;
-    /// The same, with the start that has the least residual where that matters. x: out only.
-    SolveReport solve(const SetStart& setStart, std::vector<double>& x, std::vector<double>& q);
 
     /// The next system gets a new preconditioner, whatever pays: what comes then depends on the state alone.
     void forgetPreconditioner();

@@ -102,8 +102,7 @@ private:
     void setGravity(const Cover* cover);
     void findBasins(const Cover* cover);
     void setPocketPressures();
-    void setStart(double share, std::vector<double>& x) const;
-    void setSolidVelocities();
+    void setFirstGuess();
     TransportReport advancePhase(double dt);
     TransportReport transportPhase(double dt, const std::vector<double>& u, const std::vector<double>& fine);
     double levelTolerance() const;
