@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam/splitOrder.H"
 
+#include "globalMeshData.H"
 #include "syncTools.H"
 
 #include <algorithm>
@@ -65,16 +66,17 @@ private:
         if (Pstream::parRun())
         {
             syncTools::syncPointList(mesh_, offer_, minEqOp<label>(), labelMax);
-            touched.clear();
-            forAll(offer_, i)
+            for (const label i : mesh_.globalData().coupledPatch().meshPoints())
                 if (offer_[i] != labelMax) touched.push_back(i);
         }
+        front_.clear();
         for (const label i : touched)
         {
+            if (offer_[i] == labelMax) continue;    // twice among them: shared with another process
             parity_[i] = offer_[i] & 1;
             offer_[i] = labelMax;
+            front_.push_back(i);
         }
-        front_.swap(touched);
         return returnReduce(!front_.empty(), orOp<bool>());
     }
 

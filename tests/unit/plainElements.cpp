@@ -21,7 +21,7 @@ struct Scene
     FluidProperties fluid;
     NumericsControls controls;
     NodalData nodal;
-    std::vector<double> fineScale, force, solution;
+    std::vector<double> fineScale, force, viscousForce, solution;
     FlowStepData step;
 
     explicit Scene(int dim) : mesh(makeBoxMesh(MPI_COMM_SELF, dim, {3, 3, 3}, {0, 0, 0}, {1, 1.2, 0.9}, 0.15)), graph(mesh), state(restState(mesh))
@@ -32,11 +32,13 @@ struct Scene
         state.uOld = wave(n, 1.3);
         fineScale = wave(std::size_t(mesh.nElements)*dim, 0.9);
         force = wave(std::size_t(mesh.nElements)*dim, 0.4);
+        viscousForce = wave(std::size_t(mesh.nElements)*dim, 0.5);
         solution = wave(nodes*(dim + 1), 0.6);
         step.time = TimeScheme::bdf(2, 0.01, 0.013);
         step.state = &state;
         step.fineScale = &fineScale;
         step.elementForce = &force;
+        step.viscousForce = &viscousForce;
         nodal.rho = nodal.rhoOld = nodal.rhoOlder = std::vector<double>(nodes, rho);
         nodal.mu.assign(nodes, mu);
         nodal.fluid.assign(nodes, NodalData::Liquid);
