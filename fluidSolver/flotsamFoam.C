@@ -196,7 +196,7 @@ void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         if (runTime.writeTime() || isStopping || writeNow)
         {
             output.writeState(step, dt);
-            step.fluid().forgetUnwritten();
+            step.forgetUnwritten();
         }
     }
     output.end(step);

@@ -53,6 +53,8 @@ public:
     /// State and loads of the solids at the present time, structures first.
     std::vector<BodyRecord> records() const;
 
+    /// What no checkpoint holds: after one is written the run goes on as a restart from it would.
+    void forgetUnwritten();
     /// Arrays for a checkpoint beside the FlowState. Collective.
     std::map<std::string, std::vector<double>> save() const;
     void restore(FlowState state, const std::map<std::string, std::vector<double>>& arrays);
@@ -61,6 +63,7 @@ private:
     void cut(bool hasChanged);
     void restoreGeometry();
     double smallestCutElement() const;  ///< [m]; huge where nothing is cut
+    SolveReport solveFlow(StepResult& result, double enough);
     void solveWithContact(StepResult& result);
 
     const SimplexMesh& mesh_;
@@ -73,6 +76,7 @@ private:
     std::unique_ptr<BodyCoupling> coupling_;
     std::vector<Fluid::SolidLoad> loads_;   // fluid loads of the last solve
     std::vector<double> wet_;
+    double contactChange_ = 0;  // residual over the right-hand side that the first new contact load of the last step left; 0: there was none
 };
 
 } // namespace flotsam

@@ -7,6 +7,7 @@
 #include <petscksp.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace flotsam
@@ -18,6 +19,13 @@ namespace
 constexpr double startReduction = 0.02; // of the residual by a solve that starts from values extrapolated in time
 constexpr double repeatReduction = 0.1; // by one that follows a change of the contact load
 constexpr double negligible = 1e-3; // of the tolerance: a residual that needs no solve
+
+/// Iterations down to `wanted` at the rate of those that led from `first` to `last`: a trial ends before.
+int iterationsTo(double wanted, int iterations, double first, double last)
+{
+    if (last <= wanted || last >= first) return iterations;
+    return int(std::lround(iterations*std::log(first/wanted)/std::log(first/last)));
+}
 
 /// Arrays of two vectors for the time of a product.
 class Arrays
@@ -223,7 +231,7 @@ void FlowLinearSolver::setSystem(const FlowSystem& system)
     impl_->createKrylov();
 }
 
-SolveReport FlowLinearSolver::solve(std::vector<double>& x, std::vector<double>& q)
+SolveReport FlowLinearSolver::solve(std::vector<double>& x, std::vector<double>& q, double enough)
 {
     NoFloatingPointTraps guard;
     Implementation& me = *impl_;
@@ -235,7 +243,7 @@ SolveReport FlowLinearSolver::solve(std::vector<double>& x, std::vector<double>&
     const bool isNumber = norm < 1e300 && first < 1e300; // otherwise the caller repeats the step
     report.initial = report.final = !isNumber ? std::numeric_limits<double>::infinity() : norm > 0 ? first/norm : 0;
     if (!isNumber) return report;
-    const double target = me.target(x, first, norm);
+    const double wanted = me.target(x, first, norm), target = std::max(wanted, enough*norm);
     if (first <= target || first == 0)
     {
         report.hasConverged = true;
@@ -252,7 +260,7 @@ SolveReport FlowLinearSolver::solve(std::vector<double>& x, std::vector<double>&
         report = me.iterate(x, q, target, norm, me.iterationsOfAttempt(before));
         report.initial = initial;
     }
-    me.count(before, report.iterations);
+    me.count(before, iterationsTo(wanted, report.iterations, first, report.final*norm));
     report.iterations += before;
     report.rebuiltPreconditioner = me.isNewMatrix && me.system.pressure().isNew();
     report.unbalancedVolume = unbalanced;

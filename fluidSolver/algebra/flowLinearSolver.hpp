@@ -37,7 +37,8 @@ public:
 
     /// Improves x (nNodes*(dim+1), constraints already satisfied, halo up to date) and q (nDof per solid; entries of solids
     /// that are not free are data). Repeated calls after a change of a solid's rhs need no new setSystem().
-    SolveReport solve(std::vector<double>& x, std::vector<double>& q);
+    /// enough: residual over the right-hand side to stop at when that is more than the tolerances ask for (a trial, which another solve follows).
+    SolveReport solve(std::vector<double>& x, std::vector<double>& q, double enough = 0);
 
     /// The next system gets a new preconditioner, whatever pays: what comes then depends on the state alone.
     void forgetPreconditioner();

@@ -29,7 +29,10 @@ void ScaledFlowSystem::chooseVelocities(const FlowSystem& system)
 void ScaledFlowSystem::set(const FlowSystem& system)
 {
     system_ = &system;
-    if (mesh_.dim == 2) setDiagonals<2>(); else setDiagonals<3>();
+    if (system.isNewMatrix)
+    {
+        if (mesh_.dim == 2) setDiagonals<2>(); else setDiagonals<3>();
+    }
     solids_.set(system);
     q_.assign(system.solids.size()*system.nDof, 0.0);
     qRows_ = qWork_ = q_;

@@ -266,11 +266,11 @@ void Fluid::setFirstGuess()
     for (std::size_t s = 0; solids_ && s < solids_->size(); ++s) solidVelocity(mesh_, (*solids_)[s], &q_[s*nDof]);
 }
 
-SolveReport Fluid::solve(const std::vector<FreeBody>& bodies)
+SolveReport Fluid::solve(const std::vector<FreeBody>& bodies, double enough)
 {
     equation_.setFreeBodies(bodies, time_.dt);
     solver_.setSystem(equation_.system());
-    const SolveReport report = solver_.solve(x_, q_);
+    const SolveReport report = solver_.solve(x_, q_, enough);
     equation_.system().isNewMatrix = false;
     return report;
 }

@@ -42,7 +42,7 @@ public:
     void keepGeometry();
     TransportReport beginStep(double dt);
     void assemble();
-    SolveReport solve(const std::vector<FreeBody>& bodies);
+    SolveReport solve(const std::vector<FreeBody>& bodies, double enough = 0);
     void endStep();
     void rejectStep();
 
