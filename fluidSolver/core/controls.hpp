@@ -39,6 +39,7 @@ struct NumericsControls
     bool dualCellTransport = true;  ///< false: the paper's SUPG form (eq 9)
     double interfaceWidth = 0.2;  ///< delta over local element length
     double mobility = 0;            ///< gamma over |u|max of the optional model flux
+    double profileKeeping = 0.3;    ///< rate at which cells above each other come to agree about the surface, over sqrt(g/h)
     double transportCourant = 0.9;  ///< limit of dt sum(outflow)/V of a sub-step
     double densityClip = 0.002;     ///< c of balance.md 1.1d
     bool balancedGravity = true;    ///< false: rho_e g

@@ -248,6 +248,10 @@ void DualCellTransport::advancePart(const Arguments& in, const Part& part, Trans
     {
         addModelFlux<dim>(in);
     }
+    if (in.surface)
+    {
+        keepProfile<dim>(in);
+    }
     limit<dim>(in, report);
     closeCells(in, part, report);
 }
@@ -275,7 +279,8 @@ DualCellTransport::ElementFluxes DualCellTransport::fluxes(int e) const
 
 TransportReport DualCellTransport::advance(std::vector<double>& alpha, double dt, const std::vector<double>& u,
     const std::vector<double>& fineScale, const Cover* cover, const std::vector<BoundaryPatch>& patches,
-    const std::vector<PatchValues>& values, const std::vector<char>& isPressureFixed, const std::vector<PairFlux>& pairFlux, const Cover* atEnd)
+    const std::vector<PatchValues>& values, const std::vector<char>& isPressureFixed, const std::vector<PairFlux>& pairFlux, const Cover* atEnd,
+    const SurfaceReading* surface)
 {
     TransportReport report;
     useCover(atEnd ? atEnd : cover);
@@ -284,7 +289,7 @@ TransportReport DualCellTransport::advance(std::vector<double>& alpha, double dt
 
     boundary_.evaluate(u, fineScale, cover, patches, values, isPressureFixed, pairFlux);
     const double mobility = controls_.mobility > 0 ? controls_.mobility*largestSpeed(mesh_, halo_, u) : 0;
-    const Arguments arguments{alpha, dt, u, fineScale, cover, pairFlux, mobility};
+    const Arguments arguments{alpha, dt, u, fineScale, cover, pairFlux, mobility, surface};
     if (mesh_.dim == 2)
     {
         advanceAll<2>(arguments, report);

@@ -12,6 +12,7 @@
 #include "algebra/halo.hpp"
 #include "core/boundary.hpp"
 #include "core/controls.hpp"
+#include "equations/interfacePlanes.hpp"
 #include "equations/profileReconstruction.hpp"
 #include "equations/transportBoundary.hpp"
 #include "equations/transportReport.hpp"
@@ -22,6 +23,14 @@
 
 namespace flotsam
 {
+
+/// Where gravity last found the surface, for cells that disagree about it to come together.
+struct SurfaceReading
+{
+    const std::vector<double>& level;   ///< nNodes: distance from the surface by each cell's own alpha, positive in the liquid [m]
+    const InterfacePlanes& planes;
+    double rate;                        ///< times (element length)^(-1/2): how fast they do [m^(1/2)/s]
+};
 
 class DualCellTransport
 {
@@ -36,11 +45,13 @@ public:
     /// values[p] belongs to patches[p]. velocity at Fixed/Slip patches decides the boundary flux int N_i u.n;
     /// at nodes with fixed pressure the boundary flux closes the node's balance.
     /// pairFlux: further volume fluxes between nodes (ghost penalty); every rank lists all that touch its owned nodes.
+    /// surface: of alpha (null: the profile is kept by the flow alone).
     /// Collective. Throws std::runtime_error (on every rank) for velocities that are not finite or absurdly large.
     TransportReport advance(std::vector<double>& alpha, double dt, const std::vector<double>& u,
         const std::vector<double>& fineScale, const Cover* cover,
         const std::vector<BoundaryPatch>& patches, const std::vector<PatchValues>& values,
-        const std::vector<char>& isPressureFixed, const std::vector<PairFlux>& pairFlux = {}, const Cover* atEnd = nullptr);
+        const std::vector<char>& isPressureFixed, const std::vector<PairFlux>& pairFlux = {}, const Cover* atEnd = nullptr,
+        const SurfaceReading* surface = nullptr);
 
     /// Volume fluxes of the last advance(), means over its step, of an element in which alpha varied: pairs of corners in the
     /// order of CornerPairs, first to second [m^dim/s]. Null pointers elsewhere. What the momentum must be carried with.
@@ -75,6 +86,7 @@ private:
         const Cover* cover;
         const std::vector<PairFlux>& pairFlux;
         double mobility;    // [m/s]
+        const SurfaceReading* surface;
     };
     template<int dim> void advanceAll(const Arguments& in, TransportReport& report);
     void useCover(const Cover* cover);
@@ -108,6 +120,9 @@ private:
     void findAround(const Part& part);
     template<int dim> void addFaceValues(const Arguments& in);
     template<int dim> void addModelFlux(const Arguments& in);
+    template<int dim> void keepProfile(const Arguments& in);
+    double fluidVolume(const Cover* cover, int e) const;
+    template<int dim> double disagreement(const Arguments& in, int i, int j) const;
     template<int dim> void limit(const Arguments& in, TransportReport& report);
     template<int dim> void addLimited(const Arguments& in, std::size_t k, TransportReport& report);
     void closeCells(const Arguments& in, const Part& part, TransportReport& report);

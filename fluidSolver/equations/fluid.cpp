@@ -88,7 +88,13 @@ TransportReport Fluid::transportPhase(double dt, const std::vector<double>& u, c
     const std::vector<char>& isFixed = equation_.isPatchPressureFixed();
     if (isMoved_) setMeanCover(mesh_, start_, *cover_, during_);
     const Cover* during = isMoved_ ? &during_ : cover_;
-    if (!supg_) return transport_.advance(state_.alpha, dt, u, fine, during, patches_, values_, isFixed, ghostFlux_, cover_);
+    if (!supg_)
+    {
+        double square = 0;
+        for (double g : fluid_.gravity) square += g*g;
+        const SurfaceReading surface{level_, planes_, controls_.profileKeeping*std::pow(square, 0.25)};
+        return transport_.advance(state_.alpha, dt, u, fine, during, patches_, values_, isFixed, ghostFlux_, cover_, keepsProfile() ? &surface : nullptr);
+    }
     supg_->setHistory(state_.alphaOlder, state_.dt);
     return supg_->advance(state_.alpha, dt, u, fine, during, patches_, values_, isFixed, ghostFlux_, cover_);
 }
@@ -129,10 +135,15 @@ TransportReport Fluid::beginStep(double dt)
     liquidBefore_ = keptLiquid();
     time_ = TimeScheme::bdf(controls_.timeOrder, dt, state_.dt);
     TransportReport report;
-    isLevelKnown_ = false;
     if (fluid_.isTwoPhase)
     {
         evaluatePatches(state_.time + 0.5*dt);
+        if (keepsProfile() && level_.empty())
+        {
+            isLevelKnown_ = false;
+            findSurface();
+        }
+        isLevelKnown_ = false;
         state_.alphaOlder = state_.alphaOld;
         state_.alphaOld = state_.alpha;
         report = advancePhase(dt);
@@ -149,6 +160,11 @@ double Fluid::levelTolerance() const
     constexpr double share = 1e-2, least = 1e-10, most = 1e-2;
     const double way = longestWay(mesh_, halo_, transport_.width(), state_);
     return std::clamp(share*way, least, most);
+}
+
+bool Fluid::keepsProfile() const
+{
+    return controls_.profileKeeping > 0 && controls_.balancedGravity && !supg_ && std::any_of(fluid_.gravity.begin(), fluid_.gravity.end(), [](double g) { return g != 0; });
 }
 
 /// Planes of the free surface. The level is found once a step.
@@ -361,6 +377,7 @@ void Fluid::rejectStep()
     state_.alphaOlder = before_.alphaOlder;
     setKeptLiquid(liquidBefore_);
     isMoved_ = false;
+    level_.clear();
     solver_.forgetPreconditioner(); // what failed may have been its
 }
 
@@ -368,6 +385,7 @@ void Fluid::forgetUnwritten()
 {
     solver_.forgetPreconditioner();
     if (gas_) gas_->forget();
+    level_.clear();
 }
 
 bool Fluid::isFinite() const

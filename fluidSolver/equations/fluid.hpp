@@ -106,6 +106,7 @@ private:
     TransportReport advancePhase(double dt);
     TransportReport transportPhase(double dt, const std::vector<double>& u, const std::vector<double>& fine);
     double levelTolerance() const;
+    bool keepsProfile() const;
     /// Over which the phase field is a mean; null: its values are the nodes'.
     const DualCells* profileCells() const { return supg_ ? nullptr : &transport_.cells(); }
     const std::vector<double>& halfStep(const std::vector<double>& now, const std::vector<double>& old, double dt,
@@ -126,7 +127,7 @@ private:
     MassFluxes massFluxes_;         // of the last step; surfaceTimeOrder 2
     std::unique_ptr<PhaseFieldSupg> supg_;  // the paper's form, when selected
     InterfacePlanes planes_;
-    std::vector<double> level_;             // of the last search
+    std::vector<double> level_;             // of the last search; empty: what it was made from is no more
     bool isLevelKnown_ = false;             // the search was in this step
     const Cover* cover_ = nullptr;
     Cover start_, during_;              // while solids move: geometry of t, mean over the step

@@ -48,6 +48,7 @@ const std::vector<ControlEntry>& controlsTable()
         {"dualCellTransport", &N::dualCellTransport, anyValue, "on: conservative dual-cell transport of the phase; off: SUPG form"},
         {"interfaceWidth", &N::interfaceWidth, {0.1, 5}, "interface thickness over element length"},
         {"mobility", &N::mobility, {0, 10}, "phase field mobility over the largest speed, optional model flux"},
+        {"profileKeeping", &N::profileKeeping, {0, 100}, "rate at which the profile is restored, over sqrt(g/element length); 0: by the flow alone"},
         {"transportCourant", &N::transportCourant, {0, 1, true}, "limit of a transport sub-step: dt outflow/volume"},
         {"densityClip", &N::densityClip, {0, 0.2}, "phase values this near to 0 and 1 count as pure fluid in density and viscosity"},
         {"balancedGravity", &N::balancedGravity, anyValue, "on: gravity exactly balanced at rest; off: element mean density"},
