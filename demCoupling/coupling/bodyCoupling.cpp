@@ -204,6 +204,13 @@ BodyState BodyCoupling::drifted(int b) const
     return s;
 }
 
+bool BodyCoupling::hasLightBodies() const
+{
+    for (int b = 0; b < nBodies(); ++b)
+        if (inertia_.isLight(b)) return true;
+    return false;
+}
+
 bool BodyCoupling::hasLeft(int b) const
 {
     const Vec3 margin = Vec3::Constant((setup_.box[1] - setup_.box[0]).norm()), x = states_[b].pose.position;

@@ -58,6 +58,8 @@ public:
     const std::vector<int>& wallContactCounts() const { return wallContactCounts_; } ///< bodies that touch each wall
     bool isHeld(int body) const { return isHeld_[body]; }
 
+    /// Bodies so light that the engine may be given a factor of their mass (addedInertia.hpp).
+    bool hasLightBodies() const;
     int repeats() const { return iteration_.repeats(); } ///< further solves needed in this step
     double mismatch() const { return iteration_.mismatch(); } ///< of the accepted contact, as CouplingControls::tolerance
     double largestOverlap() const { return largestOverlap_; } ///< of DEM surfaces at the end of the last run [m]

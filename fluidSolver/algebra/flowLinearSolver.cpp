@@ -20,11 +20,11 @@ constexpr double startReduction = 0.02; // of the residual by a solve that start
 constexpr double repeatReduction = 0.1; // by one that follows a change of the contact load
 constexpr double negligible = 1e-3; // of the tolerance: a residual that needs no solve
 
-/// Iterations down to `wanted` at the rate of those that led from `first` to `last`: a trial ends before.
-int iterationsTo(double wanted, int iterations, double first, double last)
+/// Iterations of a trial, which led from `first` to `last`, had it gone on down to `wanted` at this rate; at most `most`.
+int iterationsTo(double wanted, int iterations, double first, double last, int most)
 {
     if (last <= wanted || last >= first) return iterations;
-    return int(std::lround(iterations*std::log(first/wanted)/std::log(first/last)));
+    return int(std::clamp(iterations*std::log(first/wanted)/std::log(first/last), double(iterations), double(std::max(iterations, most))));
 }
 
 /// Arrays of two vectors for the time of a product.
@@ -87,6 +87,7 @@ struct FlowLinearSolver::Implementation
     Vec rhs = nullptr, solution = nullptr;
     int nVector = -1;
     bool isNewMatrix = true;            // of the system: FlowSystem::isNewMatrix
+    double unfinished = 0;              // residual that a trial with this matrix should have reached, infinite without one: what the solves after it must
 
     Implementation(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& h, const NumericsControls& c)
     :   halo(h), controls(c), system(mesh, graph, h, c.restart)
@@ -243,7 +244,9 @@ SolveReport FlowLinearSolver::solve(std::vector<double>& x, std::vector<double>&
     const bool isNumber = norm < 1e300 && first < 1e300; // otherwise the caller repeats the step
     report.initial = report.final = !isNumber ? std::numeric_limits<double>::infinity() : norm > 0 ? first/norm : 0;
     if (!isNumber) return report;
-    const double wanted = me.target(x, first, norm), target = std::max(wanted, enough*norm);
+    if (me.isNewMatrix) me.unfinished = std::numeric_limits<double>::infinity();
+    const double wanted = std::min(me.target(x, first, norm), me.unfinished), target = std::max(wanted, enough*norm);
+    if (target > wanted) me.unfinished = wanted;
     if (first <= target || first == 0)
     {
         report.hasConverged = true;
@@ -260,7 +263,8 @@ SolveReport FlowLinearSolver::solve(std::vector<double>& x, std::vector<double>&
         report = me.iterate(x, q, target, norm, me.iterationsOfAttempt(before));
         report.initial = initial;
     }
-    me.count(before, iterationsTo(wanted, report.iterations, first, report.final*norm));
+    const bool isTrial = target > wanted && report.hasConverged;
+    me.count(before, isTrial ? iterationsTo(wanted, report.iterations, first, report.final*norm, me.controls.maxIterations) : report.iterations);
     report.iterations += before;
     report.rebuiltPreconditioner = me.isNewMatrix && me.system.pressure().isNew();
     report.unbalancedVolume = unbalanced;

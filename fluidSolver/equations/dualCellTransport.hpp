@@ -24,10 +24,10 @@
 namespace flotsam
 {
 
-/// Where gravity last found the surface, for cells that disagree about it to come together.
+/// Where the surface is in a phase field, as gravity sees it, for cells that disagree about it to come together.
 struct SurfaceReading
 {
-    const std::vector<double>& level;   ///< nNodes: distance from the surface by each cell's own alpha, positive in the liquid [m]
+    const std::vector<double>& distance; ///< nNodes, halo up to date: from the surface by each cell's own alpha, positive in the liquid [m]
     const InterfacePlanes& planes;
     double rate;                        ///< times (element length)^(-1/2): how fast they do [m^(1/2)/s]
 };
@@ -45,7 +45,7 @@ public:
     /// values[p] belongs to patches[p]. velocity at Fixed/Slip patches decides the boundary flux int N_i u.n;
     /// at nodes with fixed pressure the boundary flux closes the node's balance.
     /// pairFlux: further volume fluxes between nodes (ghost penalty); every rank lists all that touch its owned nodes.
-    /// surface: of alpha (null: the profile is kept by the flow alone).
+    /// surface: found from this alpha (null: the profile is kept by the flow alone).
     /// Collective. Throws std::runtime_error (on every rank) for velocities that are not finite or absurdly large.
     TransportReport advance(std::vector<double>& alpha, double dt, const std::vector<double>& u,
         const std::vector<double>& fineScale, const Cover* cover,

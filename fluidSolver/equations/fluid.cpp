@@ -141,7 +141,7 @@ TransportReport Fluid::beginStep(double dt)
         if (keepsProfile() && level_.empty())
         {
             isLevelKnown_ = false;
-            findSurface();
+            findSurface(isMoved_ ? &start_ : cover_);
         }
         isLevelKnown_ = false;
         state_.alphaOlder = state_.alphaOld;
@@ -168,11 +168,11 @@ bool Fluid::keepsProfile() const
 }
 
 /// Planes of the free surface. The level is found once a step.
-void Fluid::findSurface()
+void Fluid::findSurface(const Cover* cover)
 {
-    if (!isLevelKnown_) level_ = surfaceLevel(mesh_, halo_, state_.alpha, transport_.width(), profileCells(), cover_, levelTolerance());
+    if (!isLevelKnown_) level_ = surfaceLevel(mesh_, halo_, state_.alpha, transport_.width(), profileCells(), cover, levelTolerance());
     isLevelKnown_ = true;
-    planes_.propagate(mesh_, graph_, halo_, level_, controls_.gravityLayers, cover_, true);
+    planes_.propagate(mesh_, graph_, halo_, level_, controls_.gravityLayers, cover, true);
 }
 
 /// Inside solids the phase field continues the free surface outside: the nearest plane's profile, so that a plane
@@ -181,7 +181,7 @@ void Fluid::extendPhase()
 {
     extendIntoSolids(mesh_, graph_, halo_, *cover_, state_.alpha);
     isLevelKnown_ = false;
-    findSurface();
+    findSurface(cover_);
     for (int i : planes_.nodes())
     {
         if (cover_->isActiveNode[i]) continue;
@@ -207,7 +207,7 @@ void Fluid::setGravity(const Cover* cover)
     const bool isBalanced = fluid_.isTwoPhase && controls_.balancedGravity;
     if (isBalanced)
     {
-        findSurface();
+        findSurface(cover_);
         surfaceDensity(mesh_, fluid_, controls_, planes_, transport_.width(), state_.alpha, ofSurface);
     }
     gravityForce(mesh_, fluid_.gravity, rho, isBalanced ? &planes_ : nullptr, ofSurface, cover, force_);

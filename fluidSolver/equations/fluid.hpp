@@ -42,7 +42,7 @@ public:
     void keepGeometry();
     TransportReport beginStep(double dt);
     void assemble();
-    SolveReport solve(const std::vector<FreeBody>& bodies, double enough = 0);
+    SolveReport solve(const std::vector<FreeBody>& bodies, double enough = 0);  ///< enough: see FlowLinearSolver::solve()
     void endStep();
     void rejectStep();
 
@@ -83,7 +83,7 @@ public:
     /// Liquid volume the transport keeps to (part of the state) [m^dim].
     double keptLiquid() const { return supg_ ? supg_->liquidVolume() : transport_.liquidVolume(); }
     void setKeptLiquid(double volume);
-    /// What the written state does not hold (preconditioner, gas left out) starts anew, as in a run that goes on from it: both stay the same.
+    /// What the written state does not hold (preconditioner, gas left out, level of the surface) starts anew, as in a run that goes on from it: both stay the same.
     void forgetUnwritten();
     /// Ghost-penalty fluxes of the last accepted solve as {a, b, flux} triples (part of the state of a run with solids).
     std::vector<double> ghostFluxes() const;
@@ -97,7 +97,7 @@ private:
     void evaluatePatches(double time);
     void moveInactiveNodes();
     void extendPhase();
-    void findSurface();
+    void findSurface(const Cover* cover);
     std::vector<double> nodalDensity() const;
     void setGravity(const Cover* cover);
     void findBasins(const Cover* cover);

@@ -11,7 +11,7 @@ namespace flotsam
 namespace
 {
 
-constexpr double mostOfDisagreement = 0.1;  // that a pair gives up in a step: explicit
+constexpr double mostOfDisagreement = 0.1;  // that a pair gives up in a part of the step: explicit
 constexpr double sameSurface = 0.5;         // least cosine between the planes of two cells of one surface
 
 /// alpha that a cell's mean gains per length by which its surface moves [1/m].
@@ -47,7 +47,7 @@ double DualCellTransport::disagreement(const Arguments& in, int i, int j) const
         cosine += planes.normal(i)[d]*planes.normal(j)[d];
     }
     if (cosine < sameSurface) return 0;
-    return along*along/square*(in.surface->level[i] + along - in.surface->level[j]);
+    return along*along/square*(in.surface->distance[i] + along - in.surface->distance[j]);
 }
 
 /// The Allen-Cahn flux of eq 6 for cells that disagree about the surface: what one has too much of goes to the other. A profile that all cells agree on is left

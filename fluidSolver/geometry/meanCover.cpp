@@ -45,7 +45,7 @@ void addHalfFacets(const Cover& cover, int e, std::vector<CutFacet>& facets)
 void setMeanCover(const SimplexMesh& mesh, const Cover& start, const Cover& end, Cover& mean)
 {
     mean.state = end.state;
-    mean.isActiveNode = start.isActiveNode;
+    mean.isActiveNode = start.isActiveNode; // the phase field that is moved has values of the fluid there
     mean.cutIndex.assign(mesh.nElements, -1);
     mean.cuts.clear();
     mean.facets.clear();

@@ -94,7 +94,7 @@ TEST_CASE("and on a fine mesh, solved as runs are")
     CHECK(speedsAfter(2, 80, false, 0.4, 0, 0.1*tolerance)[1] < 1e-6);
     CHECK(speedsAfter(2, 80, true, 0.4, 0, 0.1*tolerance)[1] < 1e-6);
 }
-// Circulations that widen the profile here and thin it there meet no resistance but profileKeeping: without it 3e-4, 3e-4 and 2e-5 m/s in the water, growing by e in 0.6 s (width 0.4: 0.4 s).
+// Circulations that widen the profile here and thin it there meet no resistance but profileKeeping: without it 6e-4, 5e-4 and 6e-5 m/s, growing by e in 0.6 s (width 0.4: 0.4 s).
 TEST_CASE("and for long, whatever the profile's width")
 {
     const double tolerance = NumericsControls().tolerance;
