@@ -18,6 +18,7 @@ namespace
 
 constexpr double startReduction = 0.02; // of the residual by a solve that starts from values extrapolated in time
 constexpr double repeatReduction = 0.1; // by one that follows a change of the contact load
+constexpr int patience = 30;            // iterations: more say that an old hierarchy, or diagonal blocks of a viscous fluid, are not good enough
 constexpr double negligible = 1e-3; // of the tolerance: a residual that needs no solve
 
 /// Iterations of a trial, which led from `first` to `last`, had it gone on down to `wanted` at this rate; at most `most`.
@@ -90,7 +91,7 @@ struct FlowLinearSolver::Implementation
     double unfinished = 0;              // residual that a trial with this matrix should have reached, infinite without one: what the solves after it must
 
     Implementation(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& h, const NumericsControls& c)
-    :   halo(h), controls(c), system(mesh, graph, h, c.restart)
+    :   halo(h), controls(c), system(mesh, graph, h, patience)
     {}
 
     ~Implementation() { destroyKrylov(); }
@@ -157,11 +158,11 @@ struct FlowLinearSolver::Implementation
         return std::max(std::min(wanted, (isNewMatrix ? startReduction : repeatReduction)*first), smallest);
     }
 
-    /// Iterations that the present preconditioner gets after those of earlier attempts. Bodies that shift in a jam can make an old hierarchy fail all at once: it gets one cycle of GMRES.
+    /// Iterations that the present preconditioner gets after those of earlier attempts. Bodies that shift in a jam can make an old hierarchy fail all at once.
     int iterationsOfAttempt(int before)
     {
         int most = controls.maxIterations;
-        if (!system.pressure().isNew()) most = std::min(most, controls.restart);
+        if (!system.pressure().isNew()) most = std::min(most, patience);
         const int limit = system.choice().limit();
         return limit > 0 ? std::min(most, std::max(limit - before, 1)) : most;
     }

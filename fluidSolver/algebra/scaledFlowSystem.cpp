@@ -8,8 +8,8 @@
 namespace flotsam
 {
 
-ScaledFlowSystem::ScaledFlowSystem(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, int restart)
-:   mesh_(mesh), graph_(graph), halo_(halo), B_(mesh.dim + 1), velocity_(graph, mesh.nOwned, mesh.dim), choice_(restart), pressure_(mesh, graph, halo), solids_(halo)
+ScaledFlowSystem::ScaledFlowSystem(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, int patience)
+:   mesh_(mesh), graph_(graph), halo_(halo), B_(mesh.dim + 1), velocity_(graph, mesh.nOwned, mesh.dim), choice_(patience), pressure_(mesh, graph, halo), solids_(halo)
 {
     const std::size_t n = mesh.nOwned;
     scale_.resize(n*B_);

@@ -16,8 +16,8 @@ namespace flotsam
 class ScaledFlowSystem
 {
 public:
-    /// restart: iterations of a GMRES cycle.
-    ScaledFlowSystem(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, int restart);
+    /// patience: iterations of diagonal blocks that are too many while nothing is known of cycles (VelocityChoice).
+    ScaledFlowSystem(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, int patience);
 
     /// Before set(): what the velocities of the new step's system are preconditioned by.
     void chooseVelocities(const FlowSystem& system);

@@ -28,7 +28,7 @@ void VelocityChoice::choose(bool cycles)
 /// What a solve with diagonal blocks may cost.
 double VelocityChoice::worth() const
 {
-    return costOfCycles_ > 0 ? costOfCycles_ : restart_;
+    return costOfCycles_ > 0 ? costOfCycles_ : patience_;
 }
 
 void VelocityChoice::beginStep(double viscousNumber)

@@ -9,8 +9,8 @@ namespace flotsam
 class VelocityChoice
 {
 public:
-    /// restart: iterations of a GMRES cycle.
-    explicit VelocityChoice(int restart) : restart_(restart) {}
+    /// patience: iterations of diagonal blocks that are too many while the cost of cycles is not known.
+    explicit VelocityChoice(int patience) : patience_(patience) {}
 
     /// A new step's system; viscousNumber: FlowSystem::viscousNumber.
     void beginStep(double viscousNumber);
@@ -24,13 +24,13 @@ public:
     void count(int iterations);
 
     /// What comes depends on the next system alone.
-    void forget() { *this = VelocityChoice(restart_); }
+    void forget() { *this = VelocityChoice(patience_); }
 
 private:
     void choose(bool cycles);
     double worth() const;
 
-    int restart_;
+    int patience_;
     bool canPay_ = false;       // cycles, at the present viscous number
     bool usesCycles_ = false;
     bool isFirst_ = true;       // no system seen

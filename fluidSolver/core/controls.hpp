@@ -49,7 +49,7 @@ struct NumericsControls
     double tolerance = 3e-5;        ///< residual of the scaled system over its right-hand side
     double forceTolerance = 1e-4;   ///< with solids: the same over the forces that change the motion
     int maxIterations = 200;
-    int restart = 30;
+    int restart = 100;
     // coupling
     double contactTolerance = 1e-2; ///< relative change of the contact impulse that ends the repeats
     int maxContactRepeats = 8;

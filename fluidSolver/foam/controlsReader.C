@@ -57,7 +57,7 @@ const std::vector<ControlEntry>& controlsTable()
         {"tolerance", &N::tolerance, {0, 0.1, true}, "relative residual of the linear solve"},
         {"forceTolerance", &N::forceTolerance, {0, 1, true}, "with solids: residual of the linear solve over the forces that change the motion"},
         {"maxIterations", &N::maxIterations, {1, 100000}, "of the linear solve; a step that needs more is repeated smaller"},
-        {"restart", &N::restart, {2, 1000}, "Krylov vectors kept"},
+        {"restart", &N::restart, {2, 1000}, "Krylov vectors kept at most"},
         {"contactTolerance", &N::contactTolerance, {0, 1, true}, "relative change of the contact impulse that ends the repeats"},
         {"maxContactRepeats", &N::maxContactRepeats, {0, 1000}, "fluid-contact repeats of one step"},
         {"contactTrial", &N::contactTrial, {0, 0.5}, "residual of a solve that is likely to be repeated, over what the new contact load changes; 0: the tolerances'"},
