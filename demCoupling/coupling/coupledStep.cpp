@@ -134,9 +134,9 @@ SolveReport CoupledStep::solveFlow(StepResult& result, double enough)
     return report;
 }
 
-/// Bodies in a jam answer most solves with another contact load. Where the last step was repeated, the first solve of this one is a trial, no more exact
-/// than what such a load changes; where its contact holds, after all, it is finished and asked again. Not with light bodies: what a trial leaves
-/// looks like an answer to the contact load.
+/// Bodies in a jam answer most solves with another contact load. Where the last step was repeated, the first solve of this one is a trial, no
+/// more exact than what such a load changes; where its contact holds, after all, it is finished and the engine asked again. Not with light
+/// bodies: what a trial leaves looks like an answer to the contact load.
 void CoupledStep::solveWithContact(StepResult& result)
 {
     const bool mayTry = coupling_ && !coupling_->hasLightBodies();

@@ -28,8 +28,8 @@ double DualCellTransport::fluidVolume(const Cover* cover, int e) const
     return cover->state[e] == ElementState::Cut ? cover->cuts[cover->cutIndex[e]].volume : 0;
 }
 
-/// By how much node i puts the surface further into the gas than node j does, one above the other [m], times the square of the cosine between their
-/// connection and the surface's normal: beside each other they may differ. By the mean of both planes, which is exact to the third order on a bent surface.
+/// By how much node i puts the surface further into the gas than node j does [m], times the square of the cosine between their connection and
+/// the surface's normal: beside each other they may differ. By the mean of both planes, which is exact to the third order on a bent surface.
 template<int dim>
 double DualCellTransport::disagreement(const Arguments& in, int i, int j) const
 {
@@ -50,8 +50,8 @@ double DualCellTransport::disagreement(const Arguments& in, int i, int j) const
     return along*along/square*(in.surface->distance[i] + along - in.surface->distance[j]);
 }
 
-/// The Allen-Cahn flux of eq 6 for cells that disagree about the surface: what one has too much of goes to the other. A profile that all cells agree on is left
-/// alone on any mesh. gamma is about the speed sqrt(g h) of the shortest waves instead of |u|max: water at rest needs it.
+/// The Allen-Cahn flux of eq 6 for cells that disagree about the surface: what one has too much of goes to the other. A profile that all cells
+/// agree on is left alone on any mesh. gamma is about the speed sqrt(g h) of the shortest waves instead of |u|max: water at rest needs it.
 template<int dim>
 void DualCellTransport::keepProfile(const Arguments& in)
 {
