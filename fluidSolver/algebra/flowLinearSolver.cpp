@@ -88,7 +88,7 @@ struct FlowLinearSolver::Implementation
     Vec rhs = nullptr, solution = nullptr;
     int nVector = -1;
     bool isNewMatrix = true;            // of the system: FlowSystem::isNewMatrix
-    double unfinished = 0;              // residual that a trial with this matrix should have reached, infinite without one: what the solves after it must
+    double unfinished = std::numeric_limits<double>::infinity();    // residual that a trial with this matrix should have reached: what the solves after it must
 
     Implementation(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& h, const NumericsControls& c)
     :   halo(h), controls(c), system(mesh, graph, h, patience)

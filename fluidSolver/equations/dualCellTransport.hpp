@@ -121,7 +121,6 @@ private:
     template<int dim> void addFaceValues(const Arguments& in);
     template<int dim> void addModelFlux(const Arguments& in);
     template<int dim> void keepProfile(const Arguments& in);
-    double fluidVolume(const Cover* cover, int e) const;
     template<int dim> double disagreement(const Arguments& in, int i, int j) const;
     template<int dim> void limit(const Arguments& in, TransportReport& report);
     template<int dim> void addLimited(const Arguments& in, std::size_t k, TransportReport& report);

@@ -34,6 +34,7 @@ void Fluid::forgetFaces()
 void Fluid::start(FlowState state, bool isSharp)
 {
     state_ = std::move(state);
+    isLevelKnown_ = false;
     const std::size_t n = std::size_t(mesh_.nNodes)*mesh_.dim;
     if (state_.uOld.size() != n) state_.uOld = state_.u;
     if (state_.pOld.size() != state_.p.size()) state_.pOld = state_.p;
@@ -90,10 +91,8 @@ TransportReport Fluid::transportPhase(double dt, const std::vector<double>& u, c
     const Cover* during = isMoved_ ? &during_ : cover_;
     if (!supg_)
     {
-        double square = 0;
-        for (double g : fluid_.gravity) square += g*g;
-        const SurfaceReading surface{level_, planes_, controls_.profileKeeping*std::pow(square, 0.25)};
-        return transport_.advance(state_.alpha, dt, u, fine, during, patches_, values_, isFixed, ghostFlux_, cover_, keepsProfile() ? &surface : nullptr);
+        const SurfaceReading surface{level_, planes_, profileRate()};
+        return transport_.advance(state_.alpha, dt, u, fine, during, patches_, values_, isFixed, ghostFlux_, cover_, surface.rate > 0 ? &surface : nullptr);
     }
     supg_->setHistory(state_.alphaOlder, state_.dt);
     return supg_->advance(state_.alpha, dt, u, fine, during, patches_, values_, isFixed, ghostFlux_, cover_);
@@ -138,11 +137,7 @@ TransportReport Fluid::beginStep(double dt)
     if (fluid_.isTwoPhase)
     {
         evaluatePatches(state_.time + 0.5*dt);
-        if (keepsProfile() && level_.empty())
-        {
-            isLevelKnown_ = false;
-            findSurface(isMoved_ ? &start_ : cover_);
-        }
+        if (profileRate() > 0 && !isLevelKnown_) findSurface(isMoved_ ? &start_ : cover_);
         isLevelKnown_ = false;
         state_.alphaOlder = state_.alphaOld;
         state_.alphaOld = state_.alpha;
@@ -162,9 +157,11 @@ double Fluid::levelTolerance() const
     return std::clamp(share*way, least, most);
 }
 
-bool Fluid::keepsProfile() const
+/// SurfaceReading::rate; 0 where nothing reads the surface.
+double Fluid::profileRate() const
 {
-    return controls_.profileKeeping > 0 && controls_.balancedGravity && !supg_ && std::any_of(fluid_.gravity.begin(), fluid_.gravity.end(), [](double g) { return g != 0; });
+    const std::array<double, 3>& g = fluid_.gravity;
+    return controls_.balancedGravity && !supg_ ? controls_.profileKeeping*std::sqrt(std::hypot(g[0], g[1], g[2])) : 0;
 }
 
 /// Planes of the free surface. The level is found once a step.
@@ -377,7 +374,7 @@ void Fluid::rejectStep()
     state_.alphaOlder = before_.alphaOlder;
     setKeptLiquid(liquidBefore_);
     isMoved_ = false;
-    level_.clear();
+    isLevelKnown_ = false;
     solver_.forgetPreconditioner(); // what failed may have been its
 }
 
@@ -385,7 +382,7 @@ void Fluid::forgetUnwritten()
 {
     solver_.forgetPreconditioner();
     if (gas_) gas_->forget();
-    level_.clear();
+    isLevelKnown_ = false;
 }
 
 bool Fluid::isFinite() const

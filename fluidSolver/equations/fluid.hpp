@@ -106,7 +106,7 @@ private:
     TransportReport advancePhase(double dt);
     TransportReport transportPhase(double dt, const std::vector<double>& u, const std::vector<double>& fine);
     double levelTolerance() const;
-    bool keepsProfile() const;
+    double profileRate() const;
     /// Over which the phase field is a mean; null: its values are the nodes'.
     const DualCells* profileCells() const { return supg_ ? nullptr : &transport_.cells(); }
     const std::vector<double>& halfStep(const std::vector<double>& now, const std::vector<double>& old, double dt,
@@ -127,8 +127,8 @@ private:
     MassFluxes massFluxes_;         // of the last step; surfaceTimeOrder 2
     std::unique_ptr<PhaseFieldSupg> supg_;  // the paper's form, when selected
     InterfacePlanes planes_;
-    std::vector<double> level_;             // of the last search; empty: what it was made from is no more
-    bool isLevelKnown_ = false;             // the search was in this step
+    std::vector<double> level_;             // of the last search
+    bool isLevelKnown_ = false;             // the search was on the present phase field
     const Cover* cover_ = nullptr;
     Cover start_, during_;              // while solids move: geometry of t, mean over the step
     bool isMoved_ = false;              // start_ holds

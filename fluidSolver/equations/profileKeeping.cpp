@@ -22,12 +22,6 @@ double capacity(double alpha, double width)
 
 } // namespace
 
-double DualCellTransport::fluidVolume(const Cover* cover, int e) const
-{
-    if (!cover || cover->state[e] == ElementState::Fluid) return mesh_.volume[e];
-    return cover->state[e] == ElementState::Cut ? cover->cuts[cover->cutIndex[e]].volume : 0;
-}
-
 /// By how much node i puts the surface further into the gas than node j does [m], times the square of the cosine between their connection and
 /// the surface's normal: beside each other they may differ. By the mean of both planes, which is exact to the third order on a bent surface.
 template<int dim>
@@ -62,7 +56,7 @@ void DualCellTransport::keepProfile(const Arguments& in)
         const int e = stored_[active_[k]];
         const int* nodes = &mesh_.elements[std::size_t(e)*n];
         const double share = std::min(mostOfDisagreement, timeStep(in, activeLevel_[k])*in.surface->rate/std::sqrt(mesh_.h[e]));
-        const double volume = share*fluidVolume(in.cover, e)/n;
+        const double volume = share*fluidVolume(mesh_, in.cover, e)/n;
         for (int p = 0; p < Pairs::count; ++p)
         {
             const int i = nodes[Pairs::first[p]], j = nodes[Pairs::second[p]];

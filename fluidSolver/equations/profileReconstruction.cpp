@@ -124,8 +124,7 @@ void ProfileReconstruction::sumNormals(const std::vector<double>& alpha, const s
             }
             weight += variation(alpha[nodes[a]]);
         }
-        const bool isCut = cover && cover->state[e] == ElementState::Cut;
-        weight = (weight*weight + 1e-8)*(isCut ? cover->cuts[cover->cutIndex[e]].volume : mesh_.volume[e]);
+        weight = (weight*weight + 1e-8)*fluidVolume(mesh_, cover, e);
         double length = 0;
         for (int d = 0; d < dim; ++d)
         {

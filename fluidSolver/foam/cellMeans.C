@@ -43,9 +43,8 @@ double liquidFraction(const MeshAdapter& adapter, const Cover* cover, const std:
     for (int k = adapter.cellStart[cell]; k < adapter.cellStart[cell + 1]; ++k)
     {
         const std::size_t e = adapter.cellElements[k];
-        const ElementState state = cover ? cover->state[e] : ElementState::Fluid;
-        if (state == ElementState::Solid) continue;
-        volume += state == ElementState::Cut ? cover->cuts[cover->cutIndex[e]].volume : mesh.volume[e];
+        if (cover && cover->state[e] == ElementState::Solid) continue;
+        volume += fluidVolume(mesh, cover, int(e));
         for (int a = 0; a < n; ++a) liquid += shares[e*n + a];
     }
     return volume > 0 ? liquid/volume : otherwise;

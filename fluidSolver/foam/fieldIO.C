@@ -236,8 +236,7 @@ void FoamFields::updateSolidFraction(const Cover& cover)
         {
             const int e = adapter_.cellElements[k];
             whole += adapter_.mesh.volume[e];
-            if (cover.state[e] == ElementState::Fluid) fluid += adapter_.mesh.volume[e];
-            else if (cover.state[e] == ElementState::Cut) fluid += cover.cuts[cover.cutIndex[e]].volume;
+            fluid += fluidVolume(adapter_.mesh, &cover, e);
         }
         (*solid_)[c] = std::max(0.0, 1 - fluid/whole);
     }

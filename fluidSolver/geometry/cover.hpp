@@ -58,6 +58,13 @@ struct Cover
     long nSharedElements = 0;           ///< cut elements with nodes in two different solids (gap below the mesh), owned, all ranks
 };
 
+/// Of element e [m^dim]. cover null: no solids.
+inline double fluidVolume(const SimplexMesh& mesh, const Cover* cover, int e)
+{
+    if (!cover || cover->state[e] == ElementState::Fluid) return mesh.volume[e];
+    return cover->state[e] == ElementState::Cut ? cover->cuts[cover->cutIndex[e]].volume : 0;
+}
+
 /// Cuts the mesh with the solids once, see CoverBuilder. Collective.
 Cover cutMesh(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const std::vector<Solid>& solids);
 

@@ -18,7 +18,7 @@ namespace
 
 /// Largest speed in the water (alpha > 0.5) and anywhere after `time` seconds. degrees: gravity off the mesh's axis.
 std::array<double, 2> speedsAfter(int dim, int n, bool hasSolid, double time, double degrees = 0, double tolerance = 1e-9,
-    double interfaceWidthOverLength = NumericsControls().interfaceWidth)
+    double interfaceWidthOverLength = NumericsControls().interfaceWidth, double profileKeeping = NumericsControls().profileKeeping)
 {
     usePetsc();
     const SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, dim, {n, dim == 2 ? n : n/2, n}, {0, 0, 0},
@@ -27,6 +27,7 @@ std::array<double, 2> speedsAfter(int dim, int n, bool hasSolid, double time, do
     NumericsControls controls;
     controls.tolerance = tolerance;
     controls.interfaceWidth = interfaceWidthOverLength;
+    controls.profileKeeping = profileKeeping;
     FluidProperties properties;
     const double c = std::cos(degrees*M_PI/180), s = std::sin(degrees*M_PI/180);
     properties.gravity[dim - 1] = -9.81*c;
@@ -107,4 +108,18 @@ TEST_CASE("and where the surface crosses the mesh's lines at an angle")
 {
     CHECK(speedsAfter(2, 20, false, 0.1, 40)[0] < 1e-6);
     CHECK(speedsAfter(3, 10, false, 0.1, 40)[0] < 1e-6);
+}
+// For the table in docs/numerics.md, section 4: speeds for rates of profileKeeping and widths.
+TEST_CASE("table of profileKeeping" * doctest::skip())
+{
+    for (const double rate : {0.0, 0.03, 0.1, 0.3, 1.0, 3.0})
+    {
+        std::printf("profileKeeping %g: ", rate);
+        speedsAfter(2, 40, false, 6.8, 0, 1e-6, NumericsControls().interfaceWidth, rate);
+    }
+    for (const double width : {0.1, 0.2, 0.4})
+    {
+        std::printf("profileKeeping 0, width %g: ", width);
+        speedsAfter(2, 40, false, 4.8, 0, 1e-6, width, 0);
+    }
 }
