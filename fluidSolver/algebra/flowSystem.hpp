@@ -65,4 +65,12 @@ struct FlowSystem
     bool isNewMatrix = true;                    ///< assembled since the last solve; else only right-hand sides of solids have changed
 };
 
+inline bool isFreePressure(const FlowSystem& system, int i) { return system.isActive[i] && !system.isPressureFixed[i]; }
+
+inline double schurDiagonal(const FlowSystem& system, const NodeGraph& graph, int i)
+{
+    const double d = system.schur[graph.diagonal[i]];
+    return d > 0 ? d : 1;
+}
+
 } // namespace flotsam

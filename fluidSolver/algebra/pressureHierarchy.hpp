@@ -7,14 +7,6 @@
 namespace flotsam
 {
 
-inline bool isFreePressure(const FlowSystem& system, int i) { return system.isActive[i] && !system.isPressureFixed[i]; }
-
-inline double schurDiagonal(const FlowSystem& system, const NodeGraph& graph, int i)
-{
-    const double d = system.schur[graph.diagonal[i]];
-    return d > 0 ? d : 1;
-}
-
 class PressureHierarchy
 {
 public:

@@ -9,7 +9,7 @@ namespace flotsam
 {
 
 ScaledFlowSystem::ScaledFlowSystem(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, int patience)
-:   mesh_(mesh), graph_(graph), halo_(halo), B_(mesh.dim + 1), velocity_(graph, mesh.nOwned, mesh.dim), choice_(patience), pressure_(mesh, graph, halo), solids_(halo)
+:   mesh_(mesh), graph_(graph), halo_(halo), B_(mesh.dim + 1), velocity_(graph, mesh.nOwned, mesh.dim), choice_(patience), pressure_(mesh, graph, halo), heldPressure_(graph, mesh.nOwned), solids_(halo)
 {
     const std::size_t n = mesh.nOwned;
     scale_.resize(n*B_);
@@ -88,6 +88,7 @@ void ScaledFlowSystem::setDiagonals()
             ghostPressure[g.node[j]] += g.pressureFactor*g.jumpPressure[j]*g.jumpPressure[j];
         }
     velocity_.set(*system_, ghost);
+    heldPressure_.set(*system_, ghostPressure);
     constexpr double ofDiagonal = 2.0/(D + 2);  // diagonal of a consistent mass matrix over its row's sum: only smooth pressures see the sum
     for (int i = 0; i < mesh_.nOwned; ++i)
     {
@@ -170,6 +171,7 @@ void ScaledFlowSystem::solvePressure(const double* r)
         pressureRows_[i] = isFreePressure(s, i) ? r[k]/scale_[k] - pressureRows_[i] : 0;
     }
     pressure_.apply(pressureRows_.data(), pressureLocal_.data());
+    heldPressure_.correct(pressureRows_.data(), pressureLocal_.data());
     for (int i = 0; i < mesh_.nOwned; ++i)
         pressureLocal_[i] = isFreePressure(s, i) ? pressureLocal_[i] + pressureRows_[i]*viscousPressure_[i] : 0;
     removeMeans(pressureLocal_);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "algebra/flowOperator.hpp"
+#include "algebra/heldPressure.hpp"
 #include "algebra/pressureHierarchy.hpp"
 #include "algebra/solidUnknowns.hpp"
 #include "algebra/velocityBlock.hpp"
@@ -68,6 +69,7 @@ private:
     VelocityChoice choice_;
     std::unique_ptr<ViscousBlock> viscous_; // instead of velocity_ when it is the choice
     PressureHierarchy pressure_;
+    HeldPressure heldPressure_;
     SolidUnknowns solids_;
 
     double unbalancedVolume_ = 0;

@@ -3,6 +3,8 @@
 
 #include <Eigen/Dense>
 
+#include <algorithm>
+
 namespace flotsam
 {
 
@@ -38,12 +40,49 @@ void VelocityBlock::setT(const FlowSystem& system, const std::vector<double>& gh
         const Block<D> whole = diagonal + ghost[i]*Block<D>::Identity();
         inverse(i) = whole.inverse().template cast<float>();
     }
+    for (int i : held_.nodes()) inverse(i).setZero();
+}
+
+/// As a matrix for each component: mean of the diagonal, ghost faces.
+void VelocityBlock::setHeldNodes(const FlowSystem& system, const std::vector<double>& ghost)
+{
+    std::vector<char> isExcluded(nOwned_);
+    std::vector<double> ofElements(nOwned_);
+    for (int i = 0; i < nOwned_; ++i)
+    {
+        isExcluded[i] = !system.isActive[i];
+        const double* diagonal = &system.matrix.velocity[std::size_t(graph_.diagonal[i])*dim_*dim_];
+        for (int a = 0; a < dim_; ++a) ofElements[i] += diagonal[a*dim_ + a]/dim_;
+    }
+    for (const NodeConstraint& c : system.constraints) isExcluded[c.node] = 1;
+    held_.find(ghost, ofElements, isExcluded);
+    if (held_.isEmpty()) return;
+    GhostHeldNodes::Entries entries;
+    for (int k = 0; k < int(held_.nodes().size()); ++k) entries.emplace_back(k, k, std::max(ofElements[held_.nodes()[k]], 0.0));
+    for (const GhostTerm& g : system.ghosts)
+        for (int i = 0; i < dim_ + 2; ++i)
+        {
+            const int row = held_.position(g.node[i]);
+            for (int j = 0; row >= 0 && j < dim_ + 2; ++j)
+                if (const int column = held_.position(g.node[j]); column >= 0)
+                    entries.emplace_back(row, column, g.velocityFactor*g.jumpVelocity[i]*g.jumpVelocity[j]);
+        }
+    held_.factor(entries, dim_);
+}
+
+/// Solves for held_.values() and adds factor times that to the velocities of z.
+void VelocityBlock::addHeldValues(double factor, double* z)
+{
+    held_.solve();
+    for (std::size_t k = 0; k < held_.nodes().size(); ++k)
+        for (int a = 0; a < dim_; ++a) z[std::size_t(held_.nodes()[k])*(dim_ + 1) + a] += factor*held_.values()(k, a);
 }
 
 void VelocityBlock::findLightNodes(const FlowSystem& system)
 {
     std::vector<char> isHeld(nOwned_, 0);
     for (const NodeConstraint& c : system.constraints) isHeld[c.node] = 1;
+    for (int i : held_.nodes()) isHeld[i] = 1;
     lightNodes_.clear();
     for (int i = 0; i < nOwned_; ++i)
         if (system.isActive[i] && system.isLight[i] && !isHeld[i]) lightNodes_.push_back(i);
@@ -102,13 +141,21 @@ void VelocityBlock::subtractT(const double* g, double* z) const
 void VelocityBlock::set(const FlowSystem& system, const std::vector<double>& ghost)
 {
     system_ = &system;
+    setHeldNodes(system, ghost);
     if (dim_ == 2) setT<2>(system, ghost); else setT<3>(system, ghost);
     findLightNodes(system);
 }
 
-void VelocityBlock::solve(const double* r, const double* scale, double* z) const
+void VelocityBlock::solve(const double* r, const double* scale, double* z)
 {
     if (dim_ == 2) solveT<2>(r, scale, z); else solveT<3>(r, scale, z);
+    if (held_.isEmpty()) return;
+    for (std::size_t k = 0; k < held_.nodes().size(); ++k)
+    {
+        const std::size_t row = std::size_t(held_.nodes()[k])*(dim_ + 1);
+        for (int a = 0; a < dim_; ++a) held_.values()(k, a) = r[row + a]/scale[row];
+    }
+    addHeldValues(1, z);
 }
 
 void VelocityBlock::relaxLightNodes(const double* r, const double* scale, double* z) const
@@ -116,9 +163,13 @@ void VelocityBlock::relaxLightNodes(const double* r, const double* scale, double
     if (dim_ == 2) relaxT<2>(r, scale, z); else relaxT<3>(r, scale, z);
 }
 
-void VelocityBlock::subtractDiagonal(const double* g, double* z) const
+void VelocityBlock::subtractDiagonal(const double* g, double* z)
 {
     if (dim_ == 2) subtractT<2>(g, z); else subtractT<3>(g, z);
+    if (held_.isEmpty()) return;
+    for (std::size_t k = 0; k < held_.nodes().size(); ++k)
+        for (int a = 0; a < dim_; ++a) held_.values()(k, a) = g[std::size_t(held_.nodes()[k])*dim_ + a];
+    addHeldValues(-1, z);
 }
 
 } // namespace flotsam

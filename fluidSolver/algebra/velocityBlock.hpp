@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Approximate inverse of the velocity block of a FlowSystem, which only preconditions: its diagonal blocks, in single precision, and a symmetric
-/// Gauss-Seidel sweep over the few nodes for which these are far off (docs/numerics.md, section 5).
+/// Approximate inverse of the velocity block of a FlowSystem, which only preconditions: its diagonal blocks, in single precision, and where these are far
+/// off: one block for all nodes that ghost penalty holds, a symmetric Gauss-Seidel sweep over gas nodes beside water (docs/numerics.md, section 5).
 #pragma once
 
-#include "algebra/flowSystem.hpp"
+#include "algebra/ghostHeldNodes.hpp"
 
 namespace flotsam
 {
@@ -18,17 +18,19 @@ public:
 
     /// z (dim+1 values a node, velocity first; the pressures become 0) = approximate inverse times the momentum rows of r, which were
     /// multiplied by scale (dim+1 values a node, one for the node's velocity).
-    void solve(const double* r, const double* scale, double* z) const;
+    void solve(const double* r, const double* scale, double* z);
 
     /// Symmetric Gauss-Seidel on the light nodes, from the z of solve() without its prescribed directions; r and scale as there.
     void relaxLightNodes(const double* r, const double* scale, double* z) const;
 
-    /// Takes the inverse diagonal blocks times g (dim values a node) from the velocities of z.
-    void subtractDiagonal(const double* g, double* z) const;
+    /// Takes the inverse blocks times g (dim values a node) from the velocities of z.
+    void subtractDiagonal(const double* g, double* z);
 
 private:
     template<int D> void setT(const FlowSystem& system, const std::vector<double>& ghost);
     template<int D> void solveT(const double* r, const double* scale, double* z) const;
+    void setHeldNodes(const FlowSystem& system, const std::vector<double>& ghost);
+    void addHeldValues(double factor, double* z);
     void findLightNodes(const FlowSystem& system);
     template<int D> void relaxNode(int i, const double* r, const double* scale, double* z) const;
     template<int D> void relaxT(const double* r, const double* scale, double* z) const;
@@ -37,8 +39,9 @@ private:
     const NodeGraph& graph_;
     const int nOwned_, dim_;
     const FlowSystem* system_ = nullptr;
-    std::vector<float> inverse_;    // nOwned*dim*dim
-    std::vector<int> lightNodes_;   // ascending: FlowSystem::isLight, but for nodes with prescribed directions
+    std::vector<float> inverse_;    // nOwned*dim*dim; 0 at the nodes of held_
+    GhostHeldNodes held_;           // without prescribed directions
+    std::vector<int> lightNodes_;   // ascending: FlowSystem::isLight, but for nodes with prescribed directions and those of held_
 };
 
 } // namespace flotsam
