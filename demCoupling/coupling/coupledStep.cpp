@@ -96,7 +96,7 @@ StepResult CoupledStep::step(double dt)
     {
         fluid_.rejectStep();
         if (coupling_) coupling_->reject();
-        contactChange_ = 0;
+        forgetContact();
         scene_.restore(sceneBefore);
         loads_ = loadsBefore;
         restoreGeometry();
@@ -134,30 +134,38 @@ SolveReport CoupledStep::solveFlow(StepResult& result, double enough)
     return report;
 }
 
-/// Bodies in a jam answer most solves with another contact load. Where the last step was repeated, the first solve of this one is a trial, no
-/// more exact than what such a load changes; where its contact holds, after all, it is finished and the engine asked again. Not with light
+/// Bodies in a jam answer most solves with another contact load. As many solves as the last step had such answers are trials, no
+/// more exact than what a new load changes; where the contact of one holds, after all, it is finished and the engine asked again. Not with light
 /// bodies: what a trial leaves looks like an answer to the contact load.
 void CoupledStep::solveWithContact(StepResult& result)
 {
-    const bool mayTry = coupling_ && !coupling_->hasLightBodies();
-    double enough = mayTry ? controls_.contactTrial*contactChange_ : 0;
-    contactChange_ = 0;
+    const int trials = coupling_ && !coupling_->hasLightBodies() ? contactRepeats_ : 0;
+    const double enoughOfTrial = controls_.contactTrial*contactChange_;
+    forgetContact();
     for (bool isNewLoad = true;;)
     {
+        const double enough = isNewLoad && result.solves < trials ? enoughOfTrial : 0;
         const SolveReport report = solveFlow(result, enough);
         result.solves += isNewLoad;
         if (!result.failure.empty() || !coupling_) return;
         if (isNewLoad && result.solves == 2) contactChange_ = report.initial;
+        contactRepeats_ = result.solves - 1;
         PhaseTimer t(timers_, Phase::Dem);
         isNewLoad = !coupling_->correct(scene_.bodyLoads(loads_, coupling_->lastLoads(), fluid_.newLoadShare()));
         if (!isNewLoad && enough == 0) break;
-        enough = 0;
     }
     result.contactMismatch = coupling_->mismatch();
     // the fluid was solved around the predicted places
     const std::string stray = coupling_->strayBody(strayElements*smallestCutElement());
     if (!stray.empty()) result.failure = "body '" + stray + "' ends more than " + std::to_string(int(strayElements)) + " elements from where it was predicted";
     else result.failure = coupling_->brokenContact(largestSpeed(mesh_, halo_, fluid_.state().u));
+}
+
+/// A step begins without trials.
+void CoupledStep::forgetContact()
+{
+    contactChange_ = 0;
+    contactRepeats_ = 0;
 }
 
 double CoupledStep::smallestCutElement() const
@@ -215,7 +223,7 @@ std::vector<BodyRecord> CoupledStep::records() const
 void CoupledStep::forgetUnwritten()
 {
     fluid_.forgetUnwritten();
-    contactChange_ = 0;
+    forgetContact();
 }
 
 std::map<std::string, std::vector<double>> CoupledStep::save() const

@@ -65,6 +65,7 @@ private:
     double smallestCutElement() const;  ///< [m]; huge where nothing is cut
     SolveReport solveFlow(StepResult& result, double enough);
     void solveWithContact(StepResult& result);
+    void forgetContact();
 
     const SimplexMesh& mesh_;
     const Halo& halo_;
@@ -77,6 +78,7 @@ private:
     std::vector<Fluid::SolidLoad> loads_;   // fluid loads of the last solve
     std::vector<double> wet_;
     double contactChange_ = 0;  // residual over the right-hand side that the first new contact load of the last step left; 0: there was none
+    int contactRepeats_ = 0;    // new contact loads in the last step
 };
 
 } // namespace flotsam
