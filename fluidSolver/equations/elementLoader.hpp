@@ -126,9 +126,9 @@ inline void loadTauContinuity(const ElementRates<Real>& rates, const Real& h, co
         *tauContinuity<Real>(controls.tauContWithTimeStep, data.rho, squared<D>(data.advection), h, data.mu/data.rho, rates);
 }
 
-/// Fluid part, materials, what convects, tau, history and force: all that the momentum residual needs. False for an element without a fluid part.
+/// Fluid part, materials, what convects, tau: all that the terms of surfaces need. False for an element without a fluid part.
 template<int D>
-inline bool loadResidualData(int e, const SimplexMesh& mesh, const FlowStepData& step, const NumericsControls& controls, const NodalData& nodal,
+inline bool loadMeans(int e, const SimplexMesh& mesh, const FlowStepData& step, const NumericsControls& controls, const NodalData& nodal,
     ElementData<D>& data, ElementSource& source)
 {
     constexpr int N = D + 1;
@@ -143,8 +143,6 @@ inline bool loadResidualData(int e, const SimplexMesh& mesh, const FlowStepData&
     const int* nodes = &mesh.elements[std::size_t(e)*N];
     data.volume = cut ? cut->volume : mesh.volume[e];
     data.gradN = &mesh.gradN[std::size_t(e)*N*D];
-    if (step.transport && (!cut || isAtRest(step, *cut))) source.fluxes = step.transport->fluxes(e);
-    data.isVarying = source.fluxes.total != nullptr;
     // sums of their own: through the references every addition would wait for the last one's way to memory and back
     double rho = 0, rhoOld = 0, rhoOlder = 0, mu = 0, advection[D] = {};
     const double inverse = cut ? 1/data.volume : 0;
@@ -164,11 +162,23 @@ inline bool loadResidualData(int e, const SimplexMesh& mesh, const FlowStepData&
     source.rhoOld = rhoOld;
     source.rhoOlder = rhoOlder;
     for (int d = 0; d < D; ++d) data.advection[d] = advection[d];
-    const double dt = step.time.dt;
-    source.rates = addFineScale<D, double>(step.fineScale ? &(*step.fineScale)[std::size_t(e)*D] : nullptr, mesh.h[e], dt, controls, data);
+    source.rates = addFineScale<D, double>(step.fineScale ? &(*step.fineScale)[std::size_t(e)*D] : nullptr, mesh.h[e], step.time.dt, controls, data);
+    return true;
+}
+
+/// With history and force all that the momentum residual needs. False for an element without a fluid part.
+template<int D>
+inline bool loadResidualData(int e, const SimplexMesh& mesh, const FlowStepData& step, const NumericsControls& controls, const NodalData& nodal,
+    ElementData<D>& data, ElementSource& source)
+{
+    constexpr int N = D + 1;
+    if (!loadMeans<D>(e, mesh, step, controls, nodal, data, source)) return false;
+    if (step.transport && (!source.cut || isAtRest(step, *source.cut))) source.fluxes = step.transport->fluxes(e);
+    data.isVarying = source.fluxes.total != nullptr;
+    const int* nodes = &mesh.elements[std::size_t(e)*N];
     source.time = step.time;
-    source.isSteep = isSteep<D>(data, nodes, nodal, rhoOld, rhoOlder);
-    if (source.isSteep) source.time = TimeScheme::bdf(1, dt, 0);
+    source.isSteep = isSteep<D>(data, nodes, nodal, source.rhoOld, source.rhoOlder);
+    if (source.isSteep) source.time = TimeScheme::bdf(1, step.time.dt, 0);
     const double c1 = source.time.c1, c2 = source.time.c2;
     data.c0 = source.time.c0;
     for (int a = 0; a < N; ++a)

@@ -217,7 +217,7 @@ inline void FlowEquation::assembleElementsIn()
         },
         [&](int e)
         {
-            if (!loadElement<D>(e, data)) return;
+            if (!loadElementData<D>(e, mesh_, step_, fluid_, controls_, nodal_, data)) return;
             addElements(&e, data);
             countViscous(e, data.mu, data.rho);
         });

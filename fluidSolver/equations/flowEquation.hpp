@@ -89,9 +89,11 @@ private:
     template<int D> void fineScaleT(const std::vector<double>&, std::vector<double>&) const;
     template<int D> void fineScaleWide(const std::vector<double>&, std::vector<double>&) const;
     template<int D, class Real> void fineScaleIn(const std::vector<double>&, std::vector<double>&) const;
-    template<int D, class Element> bool loadElement(int e, Element& data) const
+    /// What the terms of surfaces need of an element.
+    template<int D> bool loadElement(int e, ElementData<D>& data) const
     {
-        return loadElementData<D>(e, mesh_, step_, fluid_, controls_, nodal_, data);
+        ElementSource source;
+        return loadMeans<D>(e, mesh_, step_, controls_, nodal_, data, source);
     }
     void setMaterials();
     void buildConstraints();

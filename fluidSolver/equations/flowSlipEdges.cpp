@@ -73,13 +73,14 @@ void FlowEquation::addSlipFace(const MeshPatch& faces, std::size_t f)
     WallCoefficients c = nitscheCoefficients(data, controls_.nitscheGamma, mesh_.h[e], step_.time.dt, 0);   // no volume passes: nothing flows in
     c.isSlip = true;
     c.normal = edgeHold(data, c.normal, mesh_.h[e], step_.time.dt, outflow);
+    const WallTerms<D> terms(c, normal, data.gradN);
     double m[B*B];
     for (int a = 0; a < N; ++a)
     {
         if (nodes[a] >= mesh_.nOwned) continue;
         for (int b = 0; b < N; ++b)
         {
-            wallBlock<D>(c, normal, data.gradN, first[a], first[b], second[a*N + b], a, b, m);
+            terms.block(a, b, first[a], first[b], second[a*N + b], m);
             system_.matrix.add<D>(graph_.slot(nodes[a], (std::size_t(e)*N + a)*N + b), m);
         }
     }

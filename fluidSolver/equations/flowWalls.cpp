@@ -60,28 +60,120 @@ std::vector<FacetGroup<D>> groupFacets(const Cover& cover, int nInner, const std
     return groups;
 }
 
-/// Rigid velocity of node a per unit of the solid's degrees of freedom: transport[k*nDof + d].
+/// A rigid motion of a solid at one node, by the solid's degrees of freedom (solidVelocity()).
 template<int D>
-void rigidTransport(const SimplexMesh& mesh, const Solid& solid, int node, double* transport)
+struct RigidArm
 {
-    constexpr int nDof = D == 2 ? 3 : 6;
-    const std::array<double, 3> x = mesh.spacePoint(node);
-    double r[3];
-    for (int d = 0; d < 3; ++d) r[d] = x[d] - solid.pose.position[d];
-    std::fill(transport, transport + D*nDof, 0.0);
-    for (int k = 0; k < D; ++k) transport[k*nDof + k] = 1;
-    if (D == 2)
+    static constexpr int nDof = D == 2 ? 3 : 6;
+
+    double r[D];    // from the solid's position; 2D: times the plane's orientation
+
+    RigidArm() = default;
+    RigidArm(const SimplexMesh& mesh, const Solid& solid, int node)
     {
-        const double s = planeOrientation(mesh);
-        transport[0*nDof + 2] = -s*r[mesh.axes[1]];
-        transport[1*nDof + 2] = s*r[mesh.axes[0]];
-        return;
+        const std::array<double, 3> x = mesh.spacePoint(node);
+        const double orientation = D == 2 ? planeOrientation(mesh) : 1;
+        for (int d = 0; d < D; ++d) r[d] = orientation*(x[mesh.axes[d]] - solid.pose.position[mesh.axes[d]]);
     }
-    for (int k = 0; k < 3; ++k) // omega x r
+
+    /// V + omega x r.
+    void velocity(const double* q, double* u) const
     {
-        transport[k*nDof + 3 + (k + 1) % 3] = r[(k + 2) % 3];
-        transport[k*nDof + 3 + (k + 2) % 3] = -r[(k + 1) % 3];
+        for (int d = 0; d < D; ++d) u[d] = q[d];
+        if constexpr (D == 2)
+        {
+            u[0] -= q[2]*r[1];
+            u[1] += q[2]*r[0];
+        }
+        else for (int d = 0; d < D; ++d) u[d] += q[3 + (d + 1) % 3]*r[(d + 2) % 3] - q[3 + (d + 2) % 3]*r[(d + 1) % 3];
     }
+
+    /// Adds the force f, components `stride` apart, and its moment to `load`: they do f's work in every rigid motion.
+    void addLoad(const double* f, int stride, double* load) const
+    {
+        const auto moment = [&](int k, int l) { return r[k]*f[l*stride] - r[l]*f[k*stride]; };
+        for (int d = 0; d < D; ++d) load[d] += f[d*stride];
+        if constexpr (D == 2) load[2] += moment(0, 1);
+        else for (int d = 0; d < D; ++d) load[3 + d] += moment((d + 1) % 3, (d + 2) % 3);
+    }
+};
+
+/// What a facet group's blocks of the nodal jumps are for the solid's degrees of freedom, but for the sign that [u] = u - ubar gives.
+template<int D>
+struct RigidBlocks
+{
+    static constexpr int N = D + 1, B = D + 1, nDof = RigidArm<D>::nDof;
+
+    double column[N][B][nDof] = {}; ///< row of the node by the solid
+    double row[N][B][nDof] = {};    ///< column of the node by the solid: transposed
+
+    void add(int a, int b, const double* m, const RigidArm<D>* arm)
+    {
+        for (int r = 0; r < B; ++r) arm[b].addLoad(m + r*B, 1, column[a][r]);
+        for (int c = 0; c < B; ++c) arm[a].addLoad(m + c, B, row[b][c]);
+    }
+
+    void subtractColumn(int a, double* sum) const
+    {
+        for (int r = 0; r < B; ++r)
+            for (int d = 0; d < nDof; ++d) sum[r*nDof + d] -= column[a][r][d];
+    }
+
+    void subtractRow(int b, double* sum) const
+    {
+        for (int d = 0; d < nDof; ++d)
+            for (int c = 0; c < B; ++c) sum[d*B + c] -= row[b][c][d];
+    }
+
+    /// Of the solid by itself; sum: nDof*nDof, row-major.
+    void addBlock(const RigidArm<D>* arm, double* sum) const
+    {
+        double transposed[nDof][nDof] = {};
+        for (int a = 0; a < N; ++a)
+            for (int d = 0; d < nDof; ++d) arm[a].addLoad(&column[a][0][d], nDof, transposed[d]);
+        for (int d = 0; d < nDof; ++d)
+            for (int f = 0; f < nDof; ++f) sum[d*nDof + f] += transposed[f][d];
+    }
+};
+
+/// Means over a facet group: velocities along the normal [m/s], density [kg/m^3]. q: motion of the solid.
+struct FacetMotion
+{
+    double wall = 0;    ///< ubar.n
+    double slip = 0;    ///< (a - ubar).n
+    double density = 0; ///< at the facet, not the element's mean: what the surface sweeps
+
+    template<int D>
+    FacetMotion(const FacetGroup<D>& group, const int* nodes, const RigidArm<D>* arm, const double* q, const NodalData& nodal)
+    {
+        for (int a = 0; a <= D; ++a)
+        {
+            const double share = group.m1[a]/group.area;
+            double ubar[D];
+            arm[a].velocity(q, ubar);
+            density += share*nodal.rho[nodes[a]];
+            for (int k = 0; k < D; ++k)
+            {
+                wall += share*ubar[k]*group.normal[k];
+                slip += share*(nodal.advection[std::size_t(nodes[a])*D + k] - ubar[k])*group.normal[k];
+            }
+        }
+    }
+};
+
+/// Place of a node in the solid's coupling, which gets it if it has not. position: nNodes, -1 for nodes that have none.
+template<int D>
+int placeOf(int node, std::vector<int>& position, SolidCoupling& coupling)
+{
+    constexpr int width = (D + 1)*RigidArm<D>::nDof;
+    if (position[node] < 0)
+    {
+        position[node] = int(coupling.node.size());
+        coupling.node.push_back(node);
+        coupling.column.resize(coupling.column.size() + width);
+        coupling.row.resize(coupling.row.size() + width);
+    }
+    return position[node];
 }
 
 } // namespace
@@ -122,6 +214,8 @@ void FlowEquation::assembleWalls()
         SolidCoupling& coupling = system_.solids[s];
         coupling.isFree = solid.kind == Solid::Kind::Free;
         coupling.block.assign(nDof*nDof, 0.0);
+        double q[6] = {};
+        solidVelocity(mesh_, solid, q);
         for (; g < groups.size() && groups[g].solid == int(s); ++g)
         {
             const FacetGroup<D>& group = groups[g];
@@ -129,69 +223,40 @@ void FlowEquation::assembleWalls()
             const int* nodes = &mesh_.elements[std::size_t(group.element)*N];
             const bool isInner = group.element < mesh_.nInnerElements;
             const bool isOwned = mesh_.isOwnedElement[group.element];
-            double transport[N][D*nDof];
+            RigidArm<D> arm[N];
             int place[N];
-            double wallNormalVelocity = 0;  // ubar.n, mean over the facet
-            double slipVelocity = 0;        // (a - ubar).n
-            double wallDensity = 0;         // at the facet, not the element's mean: what the surface sweeps
             for (int a = 0; a < N; ++a)
             {
-                const int i = nodes[a];
-                rigidTransport<D>(mesh_, solid, i, transport[a]);
-                wallDensity += group.m1[a]/group.area*nodal_.rho[i];
-                if (position[i] < 0)
-                {
-                    position[i] = int(coupling.node.size());
-                    coupling.node.push_back(i);
-                    coupling.column.resize(coupling.column.size() + B*nDof);
-                    coupling.row.resize(coupling.row.size() + B*nDof);
-                }
-                place[a] = position[i];
-                double q[6] = {};
-                solidVelocity(mesh_, solid, q);
-                for (int k = 0; k < D; ++k)
-                {
-                    double ubar = 0;
-                    for (int d = 0; d < nDof; ++d) ubar += transport[a][k*nDof + d]*q[d];
-                    wallNormalVelocity += group.m1[a]/group.area*ubar*group.normal[k];
-                    slipVelocity += group.m1[a]/group.area*(nodal_.advection[std::size_t(i)*D + k] - ubar)*group.normal[k];
-                }
+                arm[a] = RigidArm<D>(mesh_, solid, nodes[a]);
+                place[a] = placeOf<D>(nodes[a], position, coupling);
             }
-            WallCoefficients c = nitscheCoefficients(data, controls_.nitscheGamma, mesh_.h[group.element], step_.time.dt, slipVelocity);
-            c.isNitsche = controls_.nitsche;
-            if (!controls_.nitsche) c.tangential = controls_.penalty;
+            const FacetMotion motion(group, nodes, arm, q, nodal_);
+            WallCoefficients c = controls_.nitsche ? nitscheCoefficients(data, controls_.nitscheGamma, mesh_.h[group.element], step_.time.dt, motion.slip)
+                                                   : penaltyCoefficients(controls_.penalty);
             c.isSlip = solid.wall == Solid::Wall::Slip;
-            c.convection = 0.5*wallDensity*wallNormalVelocity;
-            double m[B*B];
+            c.convection = 0.5*motion.density*motion.wall;
+            const WallTerms<D> terms(c, group.normal, data.gradN);
+            RigidBlocks<D> rigid;
             for (int a = 0; a < N; ++a)
+            {
+                const bool isRow = isInner && nodes[a] < mesh_.nOwned;
                 for (int b = 0; b < N; ++b)
                 {
-                    const double m2 = group.m2[a*N + b];
-                    wallBlock<D>(c, group.normal, data.gradN, group.m1[a], group.m1[b], m2, a, b, m);
-                    if (isInner && nodes[a] < mesh_.nOwned)
-                    {
-                        const std::size_t entry = graph_.slot(nodes[a], (std::size_t(group.element)*N + a)*N + b);
-                        system_.matrix.add<D>(entry, m);
-                        for (int k = 0; k < D; ++k) system_.matrix.velocity[entry*D*D + k*D + k] += c.convection*m2;
-                        defect_[nodes[a]] += c.convection*m2; // a moving surface's part of the mass balance
-                        swept_[nodes[a]] -= c.convection*m2;
-                        double* column = &coupling.column[std::size_t(place[a])*B*nDof];
-                        for (int r = 0; r < B; ++r)
-                            for (int k = 0; k < D; ++k)
-                                for (int d = 0; d < nDof; ++d) column[r*nDof + d] -= m[r*B + k]*transport[b][k*nDof + d];
-                    }
-                    if (!isOwned) continue;
-                    double* row = &coupling.row[std::size_t(place[b])*B*nDof];
-                    for (int k = 0; k < D; ++k)
-                        for (int d = 0; d < nDof; ++d)
-                        {
-                            const double w = transport[a][k*nDof + d];
-                            for (int col = 0; col < B; ++col) row[d*B + col] -= w*m[k*B + col];
-                            for (int l = 0; l < D; ++l)
-                                for (int f = 0; f < nDof; ++f)
-                                    coupling.block[d*nDof + f] += w*m[k*B + l]*transport[b][l*nDof + f];
-                        }
+                    double m[B*B];
+                    const double m2 = group.m2[a*N + b], swept = c.convection*m2;
+                    terms.block(a, b, group.m1[a], group.m1[b], m2, m);
+                    rigid.add(a, b, m, arm);
+                    if (!isRow) continue;
+                    for (int k = 0; k < D; ++k) m[k*(B + 1)] += swept;
+                    system_.matrix.add<D>(graph_.slot(nodes[a], (std::size_t(group.element)*N + a)*N + b), m);
+                    defect_[nodes[a]] += swept; // a moving surface's part of the mass balance
+                    swept_[nodes[a]] -= swept;
                 }
+                if (isRow) rigid.subtractColumn(a, &coupling.column[std::size_t(place[a])*B*nDof]);
+            }
+            if (!isOwned) continue;
+            for (int b = 0; b < N; ++b) rigid.subtractRow(b, &coupling.row[std::size_t(place[b])*B*nDof]);
+            rigid.addBlock(arm, coupling.block.data());
         }
         for (int i : coupling.node) position[i] = -1;
     }
@@ -236,7 +301,7 @@ void FlowEquation::assembleGhosts()
                 term.jumpPressure[k] += sign*gn/side[s].rho;
             }
             double fn = 0;
-            for (int d = 0; d < D; ++d) fn += side[s].force[d]*face.normal[d];
+            for (int d = 0; d < D && step_.elementForce; ++d) fn += (*step_.elementForce)[std::size_t(f.element[s])*D + d]*face.normal[d];
             term.pressureSource += sign*fn/side[s].rho;
         }
         double speed = 0;

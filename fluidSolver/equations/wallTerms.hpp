@@ -42,58 +42,58 @@ inline WallCoefficients nitscheCoefficients(const ElementData<D>& e, double gamm
     return c;
 }
 
-/// block (a,b) of the jumps for one facet group. m1 = int N_a, m2 = int N_a N_b over the facet; N = D+1 nodes.
-template<int D>
-inline void wallBlock(const WallCoefficients& c, const double* n, const double* gradN, double m1a, double m1b, double m2,
-    int a, int b, double* m)
+inline WallCoefficients penaltyCoefficients(double penalty)
 {
-    constexpr int B = D + 1;
-    const double* ga = gradN + a*D;
-    const double* gb = gradN + b*D;
-    for (int k = 0; k < B*B; ++k) m[k] = 0;
-    if (!c.isNitsche)
-    {
-        for (int k = 0; k < D; ++k)
-            if (c.isSlip) for (int l = 0; l < D; ++l) m[k*B + l] += c.tangential*m2*n[k]*n[l];
-            else m[k*B + k] += c.tangential*m2;
-        return;
-    }
-    double gna = 0, gnb = 0; // dn N
-    for (int d = 0; d < D; ++d) { gna += ga[d]*n[d]; gnb += gb[d]*n[d]; }
-    // viscous traction of node b: T_b[k][l] = mu (dn N_b delta_kl + d_k N_b n_l)
-    double Ta[D][D], Tb[D][D];
-    for (int k = 0; k < D; ++k)
-        for (int l = 0; l < D; ++l)
-        {
-            Ta[k][l] = c.mu*((k == l ? gna : 0) + ga[k]*n[l]);
-            Tb[k][l] = c.mu*((k == l ? gnb : 0) + gb[k]*n[l]);
-        }
-    if (c.isSlip) // only the normal traction works on the normal jump
-    {
-        double na[D], nb[D]; // n.T
-        for (int l = 0; l < D; ++l)
-        {
-            na[l] = nb[l] = 0;
-            for (int k = 0; k < D; ++k) { na[l] += n[k]*Ta[k][l]; nb[l] += n[k]*Tb[k][l]; }
-        }
-        for (int k = 0; k < D; ++k)
-            for (int l = 0; l < D; ++l)
-                m[k*B + l] += -m1a*n[k]*nb[l] + na[k]*n[l]*m1b + (c.tangential + c.normal)*m2*n[k]*n[l];
-    }
-    else
-    {
-        for (int k = 0; k < D; ++k)
-        {
-            for (int l = 0; l < D; ++l)
-                m[k*B + l] += -m1a*Tb[k][l] + Ta[l][k]*m1b + c.normal*m2*n[k]*n[l];
-            m[k*B + k] += c.tangential*m2;
-        }
-    }
-    for (int k = 0; k < D; ++k)
-    {
-        m[k*B + D] += m2*n[k];
-        m[D*B + k] -= m2*n[k];
-    }
+    WallCoefficients c{};
+    c.tangential = penalty;
+    return c;
 }
+
+/// The terms of one facet group, n its normal: what the blocks of all pairs of nodes have in common.
+template<int D>
+class WallTerms
+{
+public:
+    WallTerms(const WallCoefficients& c, const double* n, const double* gradN)
+    {
+        for (int k = 0; k < D; ++k)
+        {
+            pressure_[k] = c.isNitsche ? n[k] : 0;
+            for (int l = 0; l < D; ++l) held_[k][l] = (c.isSlip ? c.tangential + c.normal : c.normal)*n[k]*n[l];
+            if (!c.isSlip) held_[k][k] += c.tangential;
+        }
+        for (int a = 0; a <= D && c.isNitsche; ++a) setTraction(c, n, gradN + a*D, traction_[a]);
+    }
+
+    /// block (a,b) of the jumps: (D + 1)^2, row-major, velocity first. m1 = int N_a, m2 = int N_a N_b over the group.
+    void block(int a, int b, double m1a, double m1b, double m2, double* m) const
+    {
+        constexpr int B = D + 1;
+        for (int k = 0; k < D; ++k)
+        {
+            for (int l = 0; l < D; ++l) m[k*B + l] = m2*held_[k][l] + m1b*traction_[a][l][k] - m1a*traction_[b][k][l];
+            m[k*B + D] = m2*pressure_[k];
+            m[D*B + k] = -m2*pressure_[k];
+        }
+        m[D*B + D] = 0;
+    }
+
+private:
+    /// Viscous traction of a node with gradient g: T[k][l] = mu (dn N delta_kl + d_k N n_l). Slip: n n.T, only the normal one works on the normal jump.
+    static void setTraction(const WallCoefficients& c, const double* n, const double* g, double (*T)[D])
+    {
+        double gn = 0; // dn N
+        for (int d = 0; d < D; ++d) gn += g[d]*n[d];
+        for (int k = 0; k < D; ++k)
+        {
+            for (int l = 0; l < D; ++l) T[k][l] = c.isSlip ? 2*c.mu*gn*n[k]*n[l] : c.mu*g[k]*n[l];
+            if (!c.isSlip) T[k][k] += c.mu*gn;
+        }
+    }
+
+    double traction_[D + 1][D][D] = {}; // of the nodes
+    double held_[D][D];                 // factor of [u].[w]
+    double pressure_[D];
+};
 
 } // namespace flotsam
