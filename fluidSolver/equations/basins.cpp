@@ -26,8 +26,9 @@ void Basins::joinLocally(const Cover* cover)
         const int first = root(nodes[0]);
         for (int a = 0; a < n; ++a)
         {
-            lowest_[nodes[a]] = double(mesh_.globalNode[nodes[a]]);
-            basin_[root(nodes[a])] = first;
+            const int i = nodes[a];
+            if (lowest_[i] < 0) lowest_[i] = double(mesh_.globalNode[i]);
+            if (basin_[i] != first) basin_[root(i)] = first;
         }
     }
     for (int i = 0; i < mesh_.nNodes; ++i) basin_[i] = root(i);

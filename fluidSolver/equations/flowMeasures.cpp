@@ -33,7 +33,7 @@ double courantRate(const SimplexMesh& mesh, const Halo& halo, const Cover* cover
         double u[3] = {0, 0, 0}, speed = 0, alpha = 0;
         for (int a = 0; a < n; ++a) alpha = std::max(alpha, state.alpha[mesh.elements[std::size_t(e)*n + a]]);
         for (int a = 0; a < n; ++a)
-            for (int d = 0; d < dim; ++d) u[d] += state.u[std::size_t(mesh.elements[std::size_t(e)*n + a])*dim + d]/n;
+            for (int d = 0; d < dim; ++d) u[d] += state.u[std::size_t(mesh.elements[std::size_t(e)*n + a])*dim + d]*(1.0/n);
         for (int d = 0; d < dim; ++d) speed += u[d]*u[d];
         largest = std::max(largest, std::sqrt(speed)/mesh.h[e]*(alpha < gasOnly ? gasShare : 1));
     }

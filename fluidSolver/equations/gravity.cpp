@@ -107,7 +107,7 @@ double meanOf(const SimplexMesh& mesh, const Cover* cover, int e, const std::vec
         for (int a = 0; a < n; ++a) mean += value[nodes[a]]*cut.first[a]/cut.volume;
         return mean;
     }
-    for (int a = 0; a < n; ++a) mean += value[nodes[a]]/n;
+    for (int a = 0; a < n; ++a) mean += value[nodes[a]]*(1.0/n);
     return mean;
 }
 
