@@ -88,13 +88,17 @@ struct RigidArm
         else for (int d = 0; d < D; ++d) u[d] += q[3 + (d + 1) % 3]*r[(d + 2) % 3] - q[3 + (d + 2) % 3]*r[(d + 1) % 3];
     }
 
-    /// Adds the force f, components `stride` apart, and its moment to `load`: they do f's work in every rigid motion.
-    void addLoad(const double* f, int stride, double* load) const
+    /// Adds n forces and their moments to `load` (nDof*n): they do the forces' work in every rigid motion. force: component k of the j-th at [k*n + j].
+    template<int n>
+    void addLoads(const double* force, double* load) const
     {
-        const auto moment = [&](int k, int l) { return r[k]*f[l*stride] - r[l]*f[k*stride]; };
-        for (int d = 0; d < D; ++d) load[d] += f[d*stride];
-        if constexpr (D == 2) load[2] += moment(0, 1);
-        else for (int d = 0; d < D; ++d) load[3 + d] += moment((d + 1) % 3, (d + 2) % 3);
+        for (int k = 0; k < D*n; ++k) load[k] += force[k];
+        const auto addMoments = [&](int k, int l, double* moment)
+        {
+            for (int j = 0; j < n; ++j) moment[j] += r[k]*force[l*n + j] - r[l]*force[k*n + j];
+        };
+        if constexpr (D == 2) addMoments(0, 1, load + 2*n);
+        else for (int d = 0; d < D; ++d) addMoments((d + 1) % 3, (d + 2) % 3, load + (3 + d)*n);
     }
 };
 
@@ -104,35 +108,39 @@ struct RigidBlocks
 {
     static constexpr int N = D + 1, B = D + 1, nDof = RigidArm<D>::nDof;
 
-    double column[N][B][nDof] = {}; ///< row of the node by the solid
-    double row[N][B][nDof] = {};    ///< column of the node by the solid: transposed
+    double column[N][nDof*B] = {};  ///< rows of the node by the solid: transposed
+    double row[N][nDof*B] = {};     ///< the solid's rows by the node
 
     void add(int a, int b, const double* m, const RigidArm<D>* arm)
     {
-        for (int r = 0; r < B; ++r) arm[b].addLoad(m + r*B, 1, column[a][r]);
-        for (int c = 0; c < B; ++c) arm[a].addLoad(m + c, B, row[b][c]);
+        double transposed[D*B];
+        for (int k = 0; k < D; ++k)
+            for (int r = 0; r < B; ++r) transposed[k*B + r] = m[r*B + k];
+        arm[b].template addLoads<B>(transposed, column[a]);
+        arm[a].template addLoads<B>(m, row[b]);
     }
 
     void subtractColumn(int a, double* sum) const
     {
         for (int r = 0; r < B; ++r)
-            for (int d = 0; d < nDof; ++d) sum[r*nDof + d] -= column[a][r][d];
+            for (int d = 0; d < nDof; ++d) sum[r*nDof + d] -= column[a][d*B + r];
     }
 
     void subtractRow(int b, double* sum) const
     {
-        for (int d = 0; d < nDof; ++d)
-            for (int c = 0; c < B; ++c) sum[d*B + c] -= row[b][c][d];
+        for (int k = 0; k < nDof*B; ++k) sum[k] -= row[b][k];
     }
 
     /// Of the solid by itself; sum: nDof*nDof, row-major.
     void addBlock(const RigidArm<D>* arm, double* sum) const
     {
-        double transposed[nDof][nDof] = {};
         for (int a = 0; a < N; ++a)
-            for (int d = 0; d < nDof; ++d) arm[a].addLoad(&column[a][0][d], nDof, transposed[d]);
-        for (int d = 0; d < nDof; ++d)
-            for (int f = 0; f < nDof; ++f) sum[d*nDof + f] += transposed[f][d];
+        {
+            double momentum[D*nDof];    // rows of the node
+            for (int k = 0; k < D; ++k)
+                for (int d = 0; d < nDof; ++d) momentum[k*nDof + d] = column[a][d*B + k];
+            arm[a].template addLoads<nDof>(momentum, sum);
+        }
     }
 };
 
