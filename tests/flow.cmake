@@ -8,8 +8,8 @@ flotsam_test(slipEdge verification SOURCES verification/slipEdge.cpp
 flotsam_test(liquidShares unit SOURCES unit/liquidShares.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(viscousForce unit SOURCES unit/viscousForce.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(slipNormals unit SOURCES unit/slipNormals.cpp LIBRARIES flotsam_equations)
-flotsam_test(plainElements unit SOURCES unit/plainElements.cpp LIBRARIES flotsam_equations flotsam_test_support)
-target_compile_options(test_plainElements PRIVATE -Wno-psabi)
+flotsam_test(elementLanes unit SOURCES unit/elementLanes.cpp LIBRARIES flotsam_transport_support)
+target_compile_options(test_elementLanes PRIVATE -Wno-psabi)
 flotsam_test(gasDepth verification SOURCES verification/gasDepth.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(gravityWeight verification SOURCES verification/gravityWeight.cpp

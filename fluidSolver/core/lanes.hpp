@@ -46,6 +46,11 @@ inline Real squareRoot(const Real& v)
     else return gather<Real>([&](int l) { return std::sqrt(v[l]); });
 }
 
+/// Of every lane. For the larger, smaller and chosen of two, both are computed: `condition ? a : b` does that for vectors.
+template<class Real> inline Real absolute(const Real& v) { return v < 0 ? -v : v; }
+template<class Real> inline Real larger(const Real& a, const Real& b) { return a > b ? a : b; }
+template<class Real> inline Real smaller(const Real& a, const Real& b) { return a < b ? a : b; }
+
 /// Adds lane l of n values to n sums, two at a time.
 template<int n, class Real>
 inline void addLane(const Real* values, int l, double* sums)

@@ -14,6 +14,16 @@
 namespace flotsam
 {
 
+/// What an element in which the density varies has of a node: by the node's own densities.
+struct NodeInertia
+{
+    double inertia;             ///< like that of elements [kg/(m^3 s)]
+    double densityRate;         ///< drho/dt [kg/(m^3 s)]
+    double momentumHistory[3];  ///< -(c1 rho^n u^n + c2 rho^(n-1) u^(n-1)) [N/m^3]
+    double isSecondOrder;       ///< 1, or 0: all of these are of first order in time
+    bool isSteep;               ///< see steepDensity
+};
+
 /// Nodal arrays of one assembly. Sizes nNodes or nNodes*dim.
 struct NodalData
 {
@@ -23,26 +33,51 @@ struct NodalData
     std::vector<double> history;                ///< -(c1 u^n + c2 u^(n-1)) [m/s^2]
     enum Fluid : char { Mixed, Liquid, Gas };
     std::vector<Fluid> fluid;                   ///< the one that was there at all three times
+    std::vector<NodeInertia> own;               ///< with a transport
 };
 
 /// Ratio of densities within the three time levels of an element from which its residual, and its inertia where its mean density counts, are taken
 /// first order in time: a second order formula of a density that falls a thousandfold within two steps is a negative mass.
 constexpr double steepDensity = 1.5;
 
+inline bool isSteep(double now, double old, double older)
+{
+    return std::max({now, old, older}) > steepDensity*std::min({now, old, older});
+}
+
 /// Share of the first order inertia below which a node's own of second order is not used: nodes that have just lost their liquid.
 constexpr double leastInertia = 0.5;
 
+/// isFirstOrder: whatever the step is.
+inline NodeInertia nodeInertia(int node, int dim, bool isFirstOrder, const FlowStepData& step, const NodalData& nodal)
+{
+    const double now = nodal.rho[node], old = nodal.rhoOld[node], older = nodal.rhoOlder[node];
+    const TimeScheme first = TimeScheme::bdf(1, step.time.dt, 0);
+    const auto inertia = [&](const TimeScheme& t) { return 0.5*(t.c0*now - t.c1*old - t.c2*older); };
+    const bool isFirst = isFirstOrder || inertia(step.time) < leastInertia*inertia(first);
+    const TimeScheme& t = isFirst ? first : step.time;
+    NodeInertia own{inertia(t), t.c0*now + t.c1*old + t.c2*older, {}, isFirst ? 0. : 1., isSteep(now, old, older)};
+    for (int d = 0; d < dim; ++d)
+    {
+        const std::size_t k = std::size_t(node)*dim + d;
+        own.momentumHistory[d] = -(t.c1*old*step.state->u[k] + t.c2*older*step.state->uOld[k]);
+    }
+    return own;
+}
+
+/// Fills nodal.own.
+inline void setNodeInertia(const SimplexMesh& mesh, const FlowStepData& step, NodalData& nodal)
+{
+    nodal.own.resize(mesh.nNodes);
+    for (int i = 0; i < mesh.nNodes; ++i) nodal.own[i] = nodeInertia(i, mesh.dim, false, step, nodal);
+}
+
 /// By element means, and by the nodes' values where these count.
 template<int D>
-inline bool isSteep(const ElementData<D>& data, const int* nodes, const NodalData& nodal, double rho1, double rho2)
+inline bool isSteepElement(const ElementData<D>& data, const int* nodes, const NodalData& nodal, double rhoOld, double rhoOlder)
 {
-    const auto changes = [](double now, double old, double older) {
-        return std::max({now, old, older}) > steepDensity*std::min({now, old, older});
-    };
-    if (!data.isVarying) return changes(data.rho, rho1, rho2);
-    for (int a = 0; a <= D; ++a)
-        if (changes(nodal.rho[nodes[a]], nodal.rhoOld[nodes[a]], nodal.rhoOlder[nodes[a]])) return true;
-    return false;
+    if (!data.isVarying) return isSteep(data.rho, rhoOld, rhoOlder);
+    return std::any_of(nodes, nodes + D + 1, [&](int i) { return nodal.own[i].isSteep; });
 }
 
 /// Whether only structures at rest cut the element. Beside moving solids the element's mean density serves: nodes come out of them with
@@ -65,35 +100,49 @@ struct ElementSource
     ElementRates<double> rates;
 };
 
+/// Fluxes between the corners of an element in the order of CornerPairs.
+template<int D, class Real>
+struct PairFluxes
+{
+    static constexpr int count = CornerPairs<D>::count;
+
+    Real total[count], liquid[count];   ///< of volume, in the step [m^D/s]
+    Real lastMass[count];               ///< of mass in the last step, by the last density where none have been kept [kg/s]
+};
+
 /// Convection by the transport's mass fluxes, extrapolated from the middles of the last steps to the end of this one as BDF2 of the nodes' masses asks
 /// (massFluxes.hpp); without extrapolation and beside nodes of first order moved there with the mean density.
 /// Half the flux is the skew-symmetric form, in which a node's own velocity does not appear: a gas node through which in one step more mass flows than its
 /// dual cell holds would be moved by a multiple of its neighbours' differences, in splashes to 100 m/s and more.
 /// What exceeds the smaller of the two nodes' masses, shared among the D pairs that a node has in an element, is therefore taken upwind: the differences
 /// of velocities around a node then do not move it by more than themselves. (All of the mass for each pair: in 3D spikes remain, and a dam break lost half its water.)
-template<int D>
-inline void loadConvection(const ElementSource& source, const double* lastFluxes, double extrapolation, const FluidProperties& fluid,
-    const NumericsControls& controls, ElementData<D>& data)
+/// source: fluxes [kg/s or m^D/s]; share: of the last step's in the extrapolation.
+template<int D, class Real>
+inline void loadConvection(const PairFluxes<D, Real>& source, double share, const FluidProperties& fluid, const NumericsControls& controls, ElementData<D, Real>& data)
 {
     using Pairs = CornerPairs<D>;
     constexpr int N = D + 1;
-    const double share = extrapolation/(1 + extrapolation);
-    for (int a = 0; a < N; ++a) data.convection[a*(N + 1)] = 0;
+    for (int a = 0; a < N; ++a) data.convection[a*(N + 1)] = Real{};
     for (int p = 0; p < Pairs::count; ++p)
     {
         const int a = Pairs::first[p], b = Pairs::second[p];
-        const double inStep = massFlux(source.fluxes.liquid[p], source.fluxes.total[p], fluid, controls);
-        const double before = lastFluxes ? lastFluxes[p] : source.rhoOld*source.fluxes.total[p];
-        const double ahead = data.isFirstOrder[a] || data.isFirstOrder[b] ? 0 : share;
-        const double atEnd = data.volume/N*(data.ag[b] - data.ag[a]);
-        const double flux = inStep + (ahead > 0 ? ahead*(inStep - before) : data.rho*(atEnd - source.fluxes.total[p]));
-        const double mass = std::min(data.nodalInertia[a]*data.first[a], data.nodalInertia[b]*data.first[b])/D;
-        const double upwind = std::max(0.0, 0.5*std::abs(flux) - mass);
+        const Real inStep = massFlux<Real>(source.liquid[p], source.total[p], fluid, controls);
+        const Real ahead = share*data.isSecondOrder[a]*data.isSecondOrder[b];
+        const Real atEnd = data.volume*(1.0/N)*(data.ag[b] - data.ag[a]);
+        const Real flux = inStep + (ahead > 0 ? ahead*(inStep - source.lastMass[p]) : data.rho*(atEnd - source.total[p]));
+        const Real mass = smaller<Real>(data.nodalInertia[a]*data.first[a], data.nodalInertia[b]*data.first[b])*(1.0/D);
+        const Real upwind = larger<Real>(Real{}, 0.5*absolute<Real>(flux) - mass);
         data.convection[a*N + b] = 0.5*flux - upwind;
         data.convection[b*N + a] = -0.5*flux - upwind;
         data.convection[a*(N + 1)] += upwind;
         data.convection[b*(N + 1)] += upwind;
     }
+}
+
+/// Weight of the last step's mass fluxes, see above; 0 without them.
+inline double lastFluxShare(const FlowStepData& step)
+{
+    return step.massFluxes ? step.time.extrapolation/(1 + step.time.extrapolation) : 0;
 }
 
 template<int D, class Real>
@@ -177,7 +226,7 @@ inline bool loadResidualData(int e, const SimplexMesh& mesh, const FlowStepData&
     data.isVarying = source.fluxes.total != nullptr;
     const int* nodes = &mesh.elements[std::size_t(e)*N];
     source.time = step.time;
-    source.isSteep = isSteep<D>(data, nodes, nodal, source.rhoOld, source.rhoOlder);
+    source.isSteep = isSteepElement<D>(data, nodes, nodal, source.rhoOld, source.rhoOlder);
     if (source.isSteep) source.time = TimeScheme::bdf(1, step.time.dt, 0);
     const double c1 = source.time.c1, c2 = source.time.c2;
     data.c0 = source.time.c0;
@@ -205,19 +254,15 @@ inline void loadMomentumHistory(int a, int node, double old, double older, const
     for (int d = 0; d < D && more != 0; ++d) data.momentumHistory[a*D + d] += more*step.state->uOld[std::size_t(node)*D + d];
 }
 
-/// Inertia, momentum history and mass rate of corner a by its own densities. first: BDF1 of the step.
+/// What corner a has of its node, and what the element's streamline density and force share follow from.
 template<int D>
-inline void loadNodalInertia(int a, int node, bool isFirstOrder, const TimeScheme& first, const FlowStepData& step, const NodalData& nodal, ElementData<D>& data)
+inline void loadNodeInertia(int a, double rho, const NodeInertia& own, ElementData<D>& data)
 {
-    const double now = nodal.rho[node], old = nodal.rhoOld[node], older = nodal.rhoOlder[node];
-    const auto inertia = [&](const TimeScheme& t) { return 0.5*(t.c0*now - t.c1*old - t.c2*older); };
-    data.isFirstOrder[a] = isFirstOrder || inertia(step.time) < leastInertia*inertia(first);
-    const TimeScheme& t = data.isFirstOrder[a] ? first : step.time;
-    data.nodalInertia[a] = inertia(t);
-    data.densityRate[a] = t.c0*now + t.c1*old + t.c2*older;
-    data.forceShare[a] = now/data.rho - 1;
-    const double *u = &step.state->u[std::size_t(node)*D], *uOld = &step.state->uOld[std::size_t(node)*D];
-    for (int d = 0; d < D; ++d) data.momentumHistory[a*D + d] = -(t.c1*old*u[d] + t.c2*older*uOld[d]);
+    data.isSecondOrder[a] = own.isSecondOrder;
+    data.nodalInertia[a] = own.inertia;
+    data.densityRate[a] = own.densityRate;
+    data.forceShare[a] = rho/data.rho - 1;
+    std::copy_n(own.momentumHistory, D, data.momentumHistory + a*D);
 }
 
 /// Inertia and momentum history by BDF of the momentum, with the nodes' own densities where the density varies.
@@ -239,11 +284,10 @@ inline void loadInertia(const int* nodes, const FlowStepData& step, const Numeri
         return;
     }
     const bool isFirstOrder = source.isSteep && controls.surfaceTimeOrder == 1;
-    const TimeScheme first = TimeScheme::bdf(1, step.time.dt, 0);
     double least = data.inertia;
     for (int a = 0; a <= D; ++a)
     {
-        loadNodalInertia(a, nodes[a], isFirstOrder, first, step, nodal, data);
+        loadNodeInertia<D>(a, nodal.rho[nodes[a]], isFirstOrder ? nodeInertia(nodes[a], D, true, step, nodal) : nodal.own[nodes[a]], data);
         least = std::min(least, data.nodalInertia[a]);
     }
     data.streamlineDensity *= least/data.inertia;
@@ -260,8 +304,15 @@ inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& 
     loadInertia<D>(&mesh.elements[std::size_t(e)*(D + 1)], step, controls, nodal, source, data);
     if (data.isVarying)
     {
-        const bool isExtrapolated = step.massFluxes != nullptr;
-        loadConvection<D>(source, isExtrapolated ? step.massFluxes->of(e) : nullptr, isExtrapolated ? step.time.extrapolation : 0, fluid, controls, data);
+        PairFluxes<D, double> fluxes;
+        const double* last = step.massFluxes ? step.massFluxes->of(e) : nullptr;
+        for (int p = 0; p < fluxes.count; ++p)
+        {
+            fluxes.total[p] = source.fluxes.total[p];
+            fluxes.liquid[p] = source.fluxes.liquid[p];
+            fluxes.lastMass[p] = last ? last[p] : source.rhoOld*fluxes.total[p];
+        }
+        loadConvection<D, double>(fluxes, lastFluxShare(step), fluid, controls, data);
     }
     loadTauContinuity<D, double>(source.rates, mesh.h[e], controls, data);
     return true;

@@ -18,38 +18,28 @@
 namespace flotsam
 {
 
-/// What tells elements apart. In the lanes of vectors all are plain: one density, not cut.
-template<class Real>
-struct ElementKind
-{
-    static constexpr bool isVarying = false;
-    static constexpr const double* second = nullptr;
-};
-
-template<>
-struct ElementKind<double>
-{
-    bool isVarying;                     ///< density varies: the mass matrix is lumped and the transport's mass fluxes convect
-    const double* second;               ///< N*N: int N_a N_b; null: not cut, V (1 + delta_ab)/(N (N + 1))
-};
+/// N*N: int N_a N_b; null: not cut, V (1 + delta_ab)/(N (N + 1)). No element in the lanes of vectors is cut.
+template<class Real> struct CutMoments { static constexpr const double* second = nullptr; };
+template<> struct CutMoments<double> { const double* second; };
 
 /// One element (Real is double) or several, one in each lane.
 template<int D, class Real = double>
-struct ElementData : ElementKind<Real>
+struct ElementData : CutMoments<Real>
 {
     static constexpr int N = D + 1;     ///< nodes
     static constexpr int B = D + 1;     ///< unknowns of a node: u, p
 
+    bool isVarying;                     ///< density varies: the mass matrix is lumped and the transport's mass fluxes convect. In all lanes or in none
     Real volume;                        ///< fluid part [m^D]
     Real first[N];                      ///< int N_a
     const Real* gradN;                  ///< N*D
     Real rho, mu;                       ///< density, viscosity at t^(n+1): means over the fluid part
-    double c0;                          ///< du/dt = c0 u - history [1/s]
+    Real c0;                            ///< du/dt = c0 u - history [1/s]
     /// d(rho u)/dt - 1/2 drho/dt u = inertia u - momentumHistory with BDF of rho u and rho: inertia =
     /// 1/2 (c0 rho - c1 rho^n - c2 rho^(n-1)) stays positive when a node turns from water to gas in one step, where
     /// c0 rho + 1/2 drho/dt does not (BDF1: Guermond & Quartapelle 2000, doi 10.1006/jcph.2000.6609).
     Real inertia;                       ///< [kg/(m^3 s)]
-    bool isFirstOrder[N];               ///< nodes whose inertia is first order in time (varying)
+    Real isSecondOrder[N];              ///< 1 for nodes whose inertia is second order in time, if the step is, else 0 (varying)
     Real nodalInertia[N];               ///< like inertia, of the nodes (varying)
     Real convection[N*N];               ///< of row a by node b: half the mass flux from a to b, see loadConvection() [kg/s] (varying)
     Real streamlineDensity;             ///< of the SUPG terms [kg/m^3]

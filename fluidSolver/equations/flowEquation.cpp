@@ -2,10 +2,9 @@
 #include "equations/flowEquation.hpp"
 
 #include "equations/elementAssembly.hpp"
-#include "equations/elementLoader.hpp"
+#include "equations/elementLanes.hpp"
 #include "equations/gasRegion.hpp"
 #include "equations/materials.hpp"
-#include "equations/plainElements.hpp"
 #include "equations/shutPockets.hpp"
 
 #include <algorithm>
@@ -65,6 +64,7 @@ void FlowEquation::setMaterials()
         nodal_.advection[k] = (1 + t.extrapolation)*s.u[k] - t.extrapolation*s.uOld[k];
         nodal_.history[k] = -(t.c1*s.u[k] + t.c2*s.uOld[k]);
     }
+    if (step_.transport) setNodeInertia(mesh_, step_, nodal_);
 }
 
 void FlowEquation::assemble(const FlowStepData& step)
@@ -117,24 +117,27 @@ void FlowEquation::startRow(int i)
 namespace
 {
 
-/// All elements below n: plain ones in full batches, each of the others alone.
-template<int width, class IsPlain, class Batch, class Single>
-inline void sweep(int n, const IsPlain& isPlain, const Batch& ofBatch, const Single& ofSingle)
+/// All elements below n: those of a kind in full batches, each of the others alone.
+template<int width, class Kind, class Batch, class Single>
+inline void sweep(int n, const Kind& kindOf, const Batch& ofBatch, const Single& ofSingle)
 {
-    int batch[width], count = 0;
+    int batch[nLaneKinds][width], count[nLaneKinds] = {};
     for (int e = 0; e < n; ++e)
     {
-        if (!isPlain(e))
+        const ElementKind kind = kindOf(e);
+        if (kind == ElementKind::Alone)
         {
             ofSingle(e);
             continue;
         }
-        batch[count++] = e;
-        if (count < width) continue;
-        ofBatch(batch);
-        count = 0;
+        const int k = int(kind);
+        batch[k][count[k]++] = e;
+        if (count[k] < width) continue;
+        ofBatch(batch[k], kind);
+        count[k] = 0;
     }
-    for (int k = 0; k < count; ++k) ofSingle(batch[k]);
+    for (int k = 0; k < nLaneKinds; ++k)
+        for (int l = 0; l < count[k]; ++l) ofSingle(batch[k][l]);
 }
 
 } // namespace
@@ -172,17 +175,14 @@ inline void FlowEquation::addElements(const int* e, const ElementData<D, Real>& 
             defect_[i] += lane(defect, l);
             mass_[i] += lane(mass, l);
             system_.pressureMass[i] += lane(pressureMass, l);
-            if constexpr (width == 1)   // plain elements have one density
-            {
-                carriesMass_[i] |= data.isVarying;
-                system_.isLight[i] |= nodal_.rho[i] < lightDensity*data.rho;
-            }
+            carriesMass_[i] |= data.isVarying;
+            system_.isLight[i] |= nodal_.rho[i] < lightDensity*lane(data.rho, l);
         }
     }
     addElement(data, slot, system_);
 }
 
-/// Plain elements in lanes of `Real`.
+/// Lanes of `Real`.
 template<int D, class Real>
 inline void FlowEquation::assembleElementsIn()
 {
@@ -193,7 +193,7 @@ inline void FlowEquation::assembleElementsIn()
     swept_.assign(mesh_.nOwned, 0.0);
     isStarted_.assign(mesh_.nOwned, 0);
     double viscous[2] = {}; // elements; sum of their mu dt/(rho h^2)
-    PlainElements<D, Real> plain;
+    ElementLanes<D, Real> lanes(mesh_, step_, fluid_, controls_, nodal_);
     ElementData<D> data;
     const auto countViscous = [&](int e, double mu, double rho)
     {
@@ -202,18 +202,18 @@ inline void FlowEquation::assembleElementsIn()
         viscous[1] += mu*step_.time.dt/(rho*mesh_.h[e]*mesh_.h[e]);
     };
     rows_.start(mesh_, mesh_.nInnerElements);
-    const auto isPlainNext = [&](int e)
+    const auto kindOfNext = [&](int e)
     {
         rows_.fetch(e, mesh_, graph_, system_);
-        return isPlain<D>(e, mesh_, step_, nodal_);
+        return kindOf<D>(e, mesh_, step_, controls_, nodal_);
     };
-    sweep<widthOf<Real>>(mesh_.nInnerElements, isPlainNext,
-        [&](const int* elements)
+    sweep<widthOf<Real>>(mesh_.nInnerElements, kindOfNext,
+        [&](const int* elements, ElementKind kind)
         {
-            plain.loadResidual(elements, mesh_, step_, controls_, nodal_);
-            plain.loadInertia(controls_);
-            addElements(elements, plain.data);
-            for (int l = 0; l < widthOf<Real>; ++l) countViscous(elements[l], plain.data.mu[l], plain.data.rho[l]);
+            lanes.loadResidual(elements, kind);
+            lanes.loadInertia();
+            addElements(elements, lanes.data);
+            for (int l = 0; l < widthOf<Real>; ++l) countViscous(elements[l], lanes.data.mu[l], lanes.data.rho[l]);
         },
         [&](int e)
         {
@@ -291,17 +291,17 @@ template<int D, class Real>
 inline void FlowEquation::fineScaleIn(const std::vector<double>& x, std::vector<double>& result) const
 {
     constexpr int N = D + 1, B = D + 1;
-    PlainElements<D, Real> plain;
+    ElementLanes<D, Real> lanes(mesh_, step_, fluid_, controls_, nodal_);
     ElementData<D> data;
     ElementSource source;
-    sweep<widthOf<Real>>(mesh_.nElements, [&](int e) { return isPlain<D>(e, mesh_, step_, nodal_); },
-        [&](const int* elements)
+    sweep<widthOf<Real>>(mesh_.nElements, [&](int e) { return kindOf<D>(e, mesh_, step_, controls_, nodal_); },
+        [&](const int* elements, ElementKind kind)
         {
             Real u[N*B], r[D];
-            plain.loadResidual(elements, mesh_, step_, controls_, nodal_);
+            lanes.loadResidual(elements, kind);
             for (int a = 0; a < N; ++a)
-                for (int k = 0; k < B; ++k) u[a*B + k] = plain.ofNode(x.data(), B, a, k);
-            fineScaleVelocity(plain.data, u, r);
+                for (int k = 0; k < B; ++k) u[a*B + k] = lanes.corner(a, [&](int i) { return x[std::size_t(i)*B + k]; });
+            fineScaleVelocity(lanes.data, u, r);
             for (int l = 0; l < widthOf<Real>; ++l)
                 for (int d = 0; d < D; ++d) result[std::size_t(elements[l])*D + d] = r[d][l];
         },

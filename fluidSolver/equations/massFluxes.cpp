@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "equations/massFluxes.hpp"
 
+#include <algorithm>
+
 namespace flotsam
 {
 
@@ -8,14 +10,18 @@ MassFluxes::MassFluxes(const SimplexMesh& mesh, const FluidProperties& fluid, co
 :   mesh_(mesh), fluid_(fluid), controls_(controls), nPairs_(mesh.dim == 2 ? CornerPairs<2>::count : CornerPairs<3>::count)
 {}
 
-bool MassFluxes::isVarying(int element, const std::vector<double>& alphaOld, const std::vector<double>& alpha) const
+void MassFluxes::setDensities(const std::vector<double>& alphaOld, const std::vector<double>& alpha)
+{
+    rho_.resize(mesh_.nNodes);
+    for (int i = 0; i < mesh_.nNodes; ++i) rho_[i] = {density(fluid_, controls_, alphaOld[i]), density(fluid_, controls_, alpha[i])};
+}
+
+bool MassFluxes::isVarying(int element) const
 {
     const int n = mesh_.dim + 1;
     const int* nodes = &mesh_.elements[std::size_t(element)*n];
-    const double first = density(fluid_, controls_, alpha[nodes[0]]);
-    for (int a = 0; a < n; ++a)
-        if (density(fluid_, controls_, alpha[nodes[a]]) != first || density(fluid_, controls_, alphaOld[nodes[a]]) != first) return true;
-    return false;
+    const double first = rho_[nodes[0]][0];
+    return std::any_of(nodes, nodes + n, [&](int i) { return rho_[i][0] != first || rho_[i][1] != first; });
 }
 
 void MassFluxes::clear()
@@ -29,10 +35,12 @@ void MassFluxes::clear()
 void MassFluxes::keep(const DualCellTransport& transport, const std::vector<double>& alphaOld, const std::vector<double>& alpha)
 {
     clear();
+    setDensities(alphaOld, alpha);
     for (int e = 0; e < mesh_.nInnerElements; ++e)
     {
+        if (!isVarying(e)) continue;
         const DualCellTransport::ElementFluxes fluxes = transport.fluxes(e);
-        if (!fluxes.total || !isVarying(e, alphaOld, alpha)) continue;
+        if (!fluxes.total) continue;
         at_[e] = int(elements_.size());
         elements_.push_back(e);
         for (int p = 0; p < nPairs_; ++p) values_.push_back(massFlux(fluxes.liquid[p], fluxes.total[p], fluid_, controls_));

@@ -7,20 +7,21 @@
 #include "equations/dualCellTransport.hpp"
 #include "equations/materials.hpp"
 
-#include <cmath>
+#include <array>
 #include <vector>
 
 namespace flotsam
 {
 
 /// Mean over the step of the mass that flows between two nodes of an element [kg/s per thickness]: what flows has the density of its share of liquid.
-inline double massFlux(double liquidFlux, double totalFlux, const FluidProperties& fluid, const NumericsControls& controls)
+template<class Real = double>
+inline Real massFlux(const Real& liquidFlux, const Real& totalFlux, const FluidProperties& fluid, const NumericsControls& controls)
 {
     // fluxes may be as small as 1e-310: the quotient only where it is below 1
-    const double liquid = std::abs(liquidFlux), total = std::abs(totalFlux);
-    const bool isForward = (liquidFlux > 0) == (totalFlux > 0);
-    const double alpha = !isForward || liquid == 0 ? 0 : liquid < total ? liquid/total : 1;
-    return density(fluid, controls, alpha)*totalFlux;
+    const Real liquid = absolute<Real>(liquidFlux), total = absolute<Real>(totalFlux), one = Real{} + 1;
+    const Real quotient = liquid < total ? liquid/(liquid < total ? total : one) : one;
+    const Real alpha = (liquidFlux > 0) == (totalFlux > 0) ? quotient : Real{};
+    return density<Real>(fluid, controls, alpha)*totalFlux;
 }
 
 class MassFluxes
@@ -39,7 +40,8 @@ public:
     void setRecords(const std::vector<double>& records);
 
 private:
-    bool isVarying(int element, const std::vector<double>& alphaOld, const std::vector<double>& alpha) const;
+    void setDensities(const std::vector<double>& alphaOld, const std::vector<double>& alpha);
+    bool isVarying(int element) const;
     void clear();
 
     const SimplexMesh& mesh_;
@@ -49,6 +51,7 @@ private:
     std::vector<int> at_;           // per element: its place among those kept, -1
     std::vector<int> elements_;     // those kept
     std::vector<double> values_;
+    std::vector<std::array<double, 2>> rho_;    // nNodes: at the start and at the end of the step that keep() is about
 };
 
 } // namespace flotsam

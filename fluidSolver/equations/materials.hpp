@@ -3,24 +3,26 @@
 #pragma once
 
 #include "core/controls.hpp"
-
-#include <algorithm>
+#include "core/lanes.hpp"
 
 namespace flotsam
 {
 
 /// Liquid share used for rho and mu: alpha between the clips c and 1-c mapped to 0..1, so that remnants of alpha below
 /// c deep in either fluid make no buoyancy (docs/numerics.md).
-inline double liquidShare(const NumericsControls& n, double alpha)
+template<class Real = double>
+inline Real liquidShare(const NumericsControls& n, const Real& alpha)
 {
-    return std::clamp((alpha - n.densityClip)/(1 - 2*n.densityClip), 0.0, 1.0);
+    const Real share = (alpha - n.densityClip)/(1 - 2*n.densityClip);
+    return smaller<Real>(larger<Real>(share, Real{}), Real{} + 1);
 }
 
 /// [kg/m^3]
-inline double density(const FluidProperties& f, const NumericsControls& n, double alpha)
+template<class Real = double>
+inline Real density(const FluidProperties& f, const NumericsControls& n, const Real& alpha)
 {
-    if (!f.isTwoPhase) return f.rhoLiquid;
-    const double s = liquidShare(n, alpha);
+    if (!f.isTwoPhase) return Real{} + f.rhoLiquid;
+    const Real s = liquidShare<Real>(n, alpha);
     return f.rhoLiquid*s + f.rhoGas*(1 - s);
 }
 

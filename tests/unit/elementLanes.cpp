@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Plain elements, computed several at once, are to give what the general way gives for each of them.
+/// Elements computed several at once are to give what the general way gives for each of them.
 #include "equations/elementAssembly.hpp"
-#include "equations/plainElements.hpp"
-#include "support/flowCases.hpp"
+#include "equations/elementLanes.hpp"
+#include "support/transportScene.hpp"
 
 #include <cmath>
 #include <doctest/doctest.h>
@@ -12,21 +12,23 @@ using namespace flotsam;
 namespace
 {
 
-/// One fluid in motion, everything that the loaders read.
+/// Fluids in motion, everything that the loaders read. A disc of liquid that turns in gas; with one fluid liquid everywhere.
 struct Scene
 {
-    SimplexMesh mesh;
-    NodeGraph graph;
+    TransportScene carried;
+    const SimplexMesh& mesh;
+    const NodeGraph& graph;
     FlowState state;
     FluidProperties fluid;
     NumericsControls controls;
     NodalData nodal;
+    MassFluxes massFluxes;
     std::vector<double> fineScale, force, viscousForce, solution;
     FlowStepData step;
 
-    explicit Scene(int dim) : mesh(makeBoxMesh(MPI_COMM_SELF, dim, {3, 3, 3}, {0, 0, 0}, {1, 1.2, 0.9}, 0.15)), graph(mesh), state(restState(mesh))
+    explicit Scene(int dim, bool hasTwoFluids)
+    :   carried(MPI_COMM_SELF, dim, 8, 0.5, rotationField()), mesh(carried.mesh), graph(carried.graph), massFluxes(mesh, fluid, controls)
     {
-        constexpr double rho = 998, mu = 0.7;
         const std::size_t nodes = mesh.nNodes, n = nodes*dim;
         state.u = wave(n, 1.7);
         state.uOld = wave(n, 1.3);
@@ -39,13 +41,40 @@ struct Scene
         step.fineScale = &fineScale;
         step.elementForce = &force;
         step.viscousForce = &viscousForce;
-        nodal.rho = nodal.rhoOld = nodal.rhoOlder = std::vector<double>(nodes, rho);
-        nodal.mu.assign(nodes, mu);
-        nodal.fluid.assign(nodes, NodalData::Liquid);
+        carried.alpha.assign(nodes, 1);
+        if (hasTwoFluids) carried.fill(disc({0.5, 0.7, 0.5}, 0.25, dim));
+        carry(hasTwoFluids);
         nodal.advection = wave(n, 1.1);
         nodal.history.resize(n);
         for (std::size_t k = 0; k < n; ++k) nodal.history[k] = -(step.time.c1*state.u[k] + step.time.c2*state.uOld[k]);
+        setNodeInertia(mesh, step, nodal);
     }
+
+    /// Three time levels of the densities; with two fluids what the last two steps have carried.
+    void carry(bool hasTwoFluids)
+    {
+        std::vector<double> older = carried.alpha, old = older;
+        if (hasTwoFluids)
+        {
+            carried.advance(0.013, 1);
+            old = carried.alpha;
+            massFluxes.keep(carried.transport, older, old);
+            carried.advance(0.01, 1);
+            step.transport = &carried.transport;
+            step.massFluxes = &massFluxes;
+        }
+        for (int i = 0; i < mesh.nNodes; ++i)
+        {
+            nodal.rho.push_back(density(fluid, controls, carried.alpha[i]));
+            nodal.rhoOld.push_back(density(fluid, controls, old[i]));
+            nodal.rhoOlder.push_back(density(fluid, controls, older[i]));
+            nodal.mu.push_back(viscosity(fluid, controls, carried.alpha[i]));
+            const auto isAlways = [&](double rho) { return nodal.rho[i] == rho && nodal.rhoOld[i] == rho && nodal.rhoOlder[i] == rho; };
+            nodal.fluid.push_back(isAlways(fluid.rhoLiquid) ? NodalData::Liquid : isAlways(fluid.rhoGas) ? NodalData::Gas : NodalData::Mixed);
+        }
+    }
+
+    template<int D> ElementKind kind(int e) const { return kindOf<D>(e, mesh, step, controls, nodal); }
 
     static std::vector<double> wave(std::size_t n, double factor)
     {
@@ -106,28 +135,29 @@ void compare(const std::vector<double>& a, const std::vector<double>& b)
     CHECK(difference < 1e-13*largest);
 }
 
+/// All elements of one kind but the few that fill no lanes. Returns how many.
 template<int D, class Real>
-void check()
+std::size_t check(const Scene& s, ElementKind kind)
 {
-    constexpr int width = widthOf<Real>;
-    const Scene s(D);
+    constexpr std::size_t width = widthOf<Real>;
     FlowSystem alone = s.emptySystem(), together = s.emptySystem();
     std::vector<double> fineAlone, fineTogether;
     ElementData<D> data;
-    PlainElements<D, Real> plain;
-    for (int e = 0; e + width <= s.mesh.nElements; e += width)
+    ElementLanes<D, Real> lanes(s.mesh, s.step, s.fluid, s.controls, s.nodal);
+    std::vector<int> elements;
+    for (int e = 0; e < s.mesh.nElements; ++e)
+        if (s.kind<D>(e) == kind) elements.push_back(e);
+    for (std::size_t k = 0; k + width <= elements.size(); k += width)
     {
-        int elements[width];
-        for (int l = 0; l < width; ++l)
+        for (std::size_t l = 0; l < width; ++l)
         {
-            elements[l] = e + l;
-            REQUIRE(isPlain<D>(e + l, s.mesh, s.step, s.nodal));
-            REQUIRE(loadElementData<D>(e + l, s.mesh, s.step, s.fluid, s.controls, s.nodal, data));
-            add<D, double>(s, elements + l, data, alone, fineAlone);
+            REQUIRE(loadElementData<D>(elements[k + l], s.mesh, s.step, s.fluid, s.controls, s.nodal, data));
+            CHECK(data.isVarying == (kind != ElementKind::Plain));
+            add<D, double>(s, &elements[k + l], data, alone, fineAlone);
         }
-        plain.loadResidual(elements, s.mesh, s.step, s.controls, s.nodal);
-        plain.loadInertia(s.controls);
-        add<D, Real>(s, elements, plain.data, together, fineTogether);
+        lanes.loadResidual(&elements[k], kind);
+        lanes.loadInertia();
+        add<D, Real>(s, &elements[k], lanes.data, together, fineTogether);
     }
     compare(alone.matrix.velocity, together.matrix.velocity);
     compare(alone.matrix.gradient, together.matrix.gradient);
@@ -136,30 +166,38 @@ void check()
     compare(alone.schur, together.schur);
     compare(alone.rhs, together.rhs);
     compare(fineAlone, fineTogether);
+    return elements.size();
+}
+
+template<int D, class Real>
+void checkAll()
+{
+    const Scene one(D, false), two(D, true);
+    CHECK(check<D, Real>(one, ElementKind::Plain) == std::size_t(one.mesh.nElements));
+    CHECK(check<D, Real>(two, ElementKind::Carried) + check<D, Real>(two, ElementKind::Varying) == std::size_t(two.mesh.nElements));
 }
 
 } // namespace
 
-TEST_CASE("plain elements in lanes")
+TEST_CASE("elements in lanes")
 {
-    SUBCASE("2D, two lanes") { check<2, Lanes2>(); }
-    SUBCASE("2D, four lanes") { check<2, Lanes4>(); }
-    SUBCASE("3D, two lanes") { check<3, Lanes2>(); }
-    SUBCASE("3D, four lanes") { check<3, Lanes4>(); }
+    SUBCASE("2D, two lanes") { checkAll<2, Lanes2>(); }
+    SUBCASE("2D, four lanes") { checkAll<2, Lanes4>(); }
+    SUBCASE("3D, two lanes") { checkAll<3, Lanes2>(); }
+    SUBCASE("3D, four lanes") { checkAll<3, Lanes4>(); }
 }
 
-TEST_CASE("elements that are not plain")
+TEST_CASE("elements alone")
 {
-    Scene s(3);
-    const int node = s.mesh.elements[0];
-    s.nodal.fluid[node] = NodalData::Gas;
-    CHECK_FALSE(isPlain<3>(0, s.mesh, s.step, s.nodal));
+    Scene s(3, false);
+    s.nodal.fluid[s.mesh.elements[0]] = NodalData::Gas;
+    CHECK(s.kind<3>(0) == ElementKind::Alone);
     s.nodal.fluid.assign(s.mesh.nNodes, NodalData::Mixed);
-    CHECK_FALSE(isPlain<3>(0, s.mesh, s.step, s.nodal));
+    CHECK(s.kind<3>(0) == ElementKind::Alone);
     s.nodal.fluid.assign(s.mesh.nNodes, NodalData::Gas);
-    CHECK(isPlain<3>(0, s.mesh, s.step, s.nodal));
+    CHECK(s.kind<3>(0) == ElementKind::Plain);
     Cover cover;
     cover.state.assign(s.mesh.nElements, ElementState::Cut);
     s.step.cover = &cover;
-    CHECK_FALSE(isPlain<3>(0, s.mesh, s.step, s.nodal));
+    CHECK(s.kind<3>(0) == ElementKind::Alone);
 }
