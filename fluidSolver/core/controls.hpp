@@ -53,7 +53,7 @@ struct NumericsControls
     // coupling
     double contactTolerance = 1e-2; ///< relative change of the contact impulse that ends the repeats
     int maxContactRepeats = 8;
-    double contactTrial = 0.1;      ///< residual of a solve that is likely to be repeated with a new contact load, over what that load changes
+    double contactTrial = 0.1;      ///< residual of the solves that a new contact load is likely to follow, over what that load changes
     double demTimeStep = 0;         ///< [s]; 0: chosen from stiffness and masses
 };
 
