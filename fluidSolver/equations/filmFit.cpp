@@ -176,41 +176,60 @@ private:
     Group groups_[maxGroups];
 };
 
-/// Normal equations of the fit at given unknowns.
+/// Curvature and taper are kept small.
+template<int dim>
+bool hasRidge(int i)
+{
+    using L = Layout<dim>;
+    return i >= L::taper || (i >= L::curvature && i < L::thickness);
+}
+
+/// What the film of given unknowns misses.
+template<int dim>
+struct Misfit
+{
+    using L = Layout<dim>;
+    double unknown[L::size];
+    Lanes derivatives[L::size][maxGroups], defect[maxGroups];
+    double cost;        // what is minimised
+    double residual;    // sum of squared differences of the other cells
+
+    void evaluate(const Cells<dim>& cells, double steepness)
+    {
+        cells.evaluate(steepness/slopeLength<dim>(&unknown[L::tilt]), unknown, defect, derivatives);
+        const double own = defect[0][0];
+        defect[0][0] = 0;
+        residual = sumOfProducts(defect, defect, cells.size());
+        defect[0][0] = own;
+        cost = residual + own*own;
+        for (int i = 0; i < L::size; ++i)
+        {
+            if (hasRidge<dim>(i)) cost += surfaceRidge*unknown[i]*unknown[i];
+        }
+    }
+};
+
 template<int dim>
 struct NormalEquations
 {
     using L = Layout<dim>;
     double matrix[L::size][L::size], right[L::size];
-    double cost;        // what is minimised
-    double residual;    // sum of squared differences of the other cells
 
-    NormalEquations(const Cells<dim>& cells, double steepness, const double* unknown)
+    void set(const Misfit<dim>& at, int nGroups)
     {
-        const double scale = steepness/slopeLength<dim>(&unknown[L::tilt]);
-        Lanes derivatives[L::size][maxGroups], defect[maxGroups];
-        cells.evaluate(scale, unknown, defect, derivatives);
         for (int i = 0; i < L::size; ++i)
         {
-            right[i] = sumOfProducts(derivatives[i], defect, cells.size());
+            right[i] = sumOfProducts(at.derivatives[i], at.defect, nGroups);
             for (int j = i; j < L::size; ++j)
             {
-                matrix[i][j] = sumOfProducts(derivatives[i], derivatives[j], cells.size());
+                matrix[i][j] = sumOfProducts(at.derivatives[i], at.derivatives[j], nGroups);
             }
         }
-        const double own = defect[0][0];
-        defect[0][0] = 0;
-        residual = sumOfProducts(defect, defect, cells.size());
-        cost = residual + own*own;
         for (int i = 0; i < L::size; ++i)
         {
-            if (i < L::curvature || (i >= L::thickness && i < L::taper))
-            {
-                continue;
-            }
+            if (!hasRidge<dim>(i)) continue;
             matrix[i][i] += surfaceRidge;
-            right[i] -= surfaceRidge*unknown[i];
-            cost += surfaceRidge*unknown[i]*unknown[i];
+            right[i] -= surfaceRidge*at.unknown[i];
         }
     }
 
@@ -247,37 +266,32 @@ template<int dim>
 Film<dim> fitFilm(const SurfaceSample* samples, int nSamples, double steepness, double wanted)
 {
     using L = Layout<dim>;
-    double best[L::size], damping = firstDamping;
-    startFilm<dim>(samples, nSamples, best);
+    Misfit<dim> films[2], *best = &films[0], *next = &films[1];
     const Cells<dim> cells(samples, nSamples);
-    NormalEquations<dim> atBest(cells, steepness, best);
+    startFilm<dim>(samples, nSamples, best->unknown);
+    best->evaluate(cells, steepness);
+    NormalEquations<dim> equations;
+    equations.set(*best, cells.size());
+    double damping = firstDamping;
     bool hasConverged = false;
-    for (int iteration = 0; iteration < nIterations && !hasConverged; ++iteration)
+    for (int iteration = 1; iteration <= nIterations; ++iteration)
     {
-        double next[L::size];
-        std::copy_n(best, L::size, next);
-        const double change = atBest.step(damping, next);
-        const NormalEquations<dim> atNext(cells, steepness, next);
-        const bool isBetter = atNext.cost <= atBest.cost;
-        if (isBetter)
-        {
-            std::copy_n(next, L::size, best);
-            atBest = atNext;
-        }
-        hasConverged = change < lastStep;
+        std::copy_n(best->unknown, L::size, next->unknown);
+        hasConverged = equations.step(damping, next->unknown) < lastStep;
+        next->evaluate(cells, steepness);
+        const bool isBetter = next->cost <= best->cost;
+        if (isBetter) std::swap(best, next);
+        if (hasConverged || (iteration == trialIterations && best->residual > hopeless*wanted)) break;
+        if (isBetter) equations.set(*best, cells.size());
         damping *= isBetter ? 0.3 : 10;
-        if (iteration + 1 == trialIterations && atBest.residual > hopeless*wanted)
-        {
-            break;
-        }
     }
     Film<dim> film;
-    film.middle = best[0];
-    film.thickness = best[L::thickness];
-    film.residual = hasConverged ? atBest.residual : 1e300;
-    std::copy_n(&best[L::tilt], L::tangents, film.tilt);
-    std::copy_n(&best[L::taper], L::tangents, film.taper);
-    std::copy_n(&best[L::curvature], L::thickness - L::curvature, film.curvature);
+    film.middle = best->unknown[0];
+    film.thickness = best->unknown[L::thickness];
+    film.residual = hasConverged ? best->residual : 1e300;
+    std::copy_n(&best->unknown[L::tilt], L::tangents, film.tilt);
+    std::copy_n(&best->unknown[L::taper], L::tangents, film.taper);
+    std::copy_n(&best->unknown[L::curvature], L::thickness - L::curvature, film.curvature);
     return film;
 }
 

@@ -61,16 +61,20 @@ constexpr double largestCurvature = 0.25;
 /// What the means leave undetermined (curvature, taper) is kept at zero by this much of a cell's weight.
 constexpr double surfaceRidge = 1e-3;
 
-/// Elimination without pivots, upper triangle only: the matrix is symmetric and positive definite.
+/// Elimination without pivots, upper triangle only: the matrix is symmetric and positive definite. Unrolled: most loops are shorter than what it
+/// takes to begin them.
 template<int n>
 void solveSymmetric(double (&a)[n][n], double (&b)[n])
 {
+#pragma GCC unroll 16
     for (int k = 0; k < n; ++k)
     {
         const double inverse = 1/a[k][k];
+#pragma GCC unroll 16
         for (int r = k + 1; r < n; ++r)
         {
             const double factor = a[k][r]*inverse;
+#pragma GCC unroll 16
             for (int c = r; c < n; ++c)
             {
                 a[r][c] -= factor*a[k][c];
@@ -78,8 +82,10 @@ void solveSymmetric(double (&a)[n][n], double (&b)[n])
             b[r] -= factor*b[k];
         }
     }
+#pragma GCC unroll 16
     for (int k = n - 1; k >= 0; --k)
     {
+#pragma GCC unroll 16
         for (int c = k + 1; c < n; ++c)
         {
             b[k] -= a[k][c]*b[c];
