@@ -15,8 +15,6 @@ namespace
 constexpr double pureLimit = 0.01;
 /// A front whose neighbours are met this well needs no film; a film must meet them by this factor better.
 constexpr double frontIsGood = 1e-3, filmIsBetter = 0.1;
-/// Cells with less of either phase carry too little for a fit to pay.
-constexpr double leastFilled = 0.03;
 /// Largest thickness of a film, of the cell's.
 constexpr double thickFilm = 4;
 /// Ties are decided the same way whatever the round-off, on any number of ranks.
@@ -63,26 +61,22 @@ void ProfileReconstruction::findFilmAxes(int i, const std::vector<double>& alpha
         {
             continue;
         }
-        double gradient[dim] = {}, length = 1e-30, weight = 0;
+        const double* g = gradient(e);
+        double length = 1e-30, weight = 0;
         for (int a = 0; a < n; ++a)
         {
-            const int node = mesh_.elements[std::size_t(e)*n + a];
-            weight += variation(alpha[node]);
-            for (int d = 0; d < dim; ++d)
-            {
-                gradient[d] += level_[node]*mesh_.gradN[(std::size_t(e)*n + a)*dim + d];
-            }
+            weight += variation(alpha[mesh_.elements[std::size_t(e)*n + a]]);
         }
         for (int d = 0; d < dim; ++d)
         {
-            length += gradient[d]*gradient[d];
+            length += g[d]*g[d];
         }
         weight *= weight*mesh_.volume[e]/std::sqrt(length);
         for (int d = 0; d < dim; ++d)
         {
             for (int c = 0; c < dim; ++c)
             {
-                tensor[d][c] += weight*gradient[d]*gradient[c];
+                tensor[d][c] += weight*g[d]*g[c];
             }
         }
     }
@@ -95,10 +89,6 @@ template<int dim>
 bool ProfileReconstruction::fitFilm(const Ring& ring, const std::vector<double>& alpha, bool isCoherent, const Cover* cover)
 {
     const int i = ring.node[0];
-    if (std::min(alpha[i], 1 - alpha[i]) < leastFilled)
-    {
-        return false;
-    }
     bool hasGas = false, hasLiquid = false;
     double levels = 0, levelSize = 0;
     for (int k = 1; k < ring.size; ++k)

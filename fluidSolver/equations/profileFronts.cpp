@@ -15,7 +15,7 @@ void ProfileReconstruction::findRing(int i, const Cover* cover, Ring& ring)
     ring.node[0] = i;
     ring.count[0] = 0;
     placeInRing_[i] = 0;
-    for (int k = graph_.nodeElementStart[i]; k < graph_.nodeElementStart[i + 1]; ++k)
+    for (int k = graph_.nodeElementStart[i]; k < graph_.nodeElementStart[i + 1] && ring.size < maxRing - dim; ++k)
     {
         const int e = graph_.nodeElement[k];
         if (cover && cover->state[e] == ElementState::Solid)
@@ -26,16 +26,11 @@ void ProfileReconstruction::findRing(int i, const Cover* cover, Ring& ring)
         for (int a = 0; a <= dim; ++a)
         {
             int& place = placeInRing_[nodes[a]];
-            if (place < 0 && ring.size < maxRing)
-            {
-                place = ring.size++;
-                ring.node[place] = nodes[a];
-                ring.count[place] = 0;
-            }
-            if (place >= 0)
-            {
-                ++ring.count[place];
-            }
+            const bool isNew = place < 0;   // no branch: none could be foretold
+            place = isNew ? ring.size : place;
+            ring.node[place] = nodes[a];
+            ring.count[place] = isNew ? 1 : ring.count[place] + 1;
+            ring.size += isNew;
         }
     }
     for (int k = 0; k < ring.size; ++k)

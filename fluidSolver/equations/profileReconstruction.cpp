@@ -23,6 +23,9 @@ double roofFactorOf(double coherence)
     return 0.7 + 0.55*std::clamp((coherence - 0.5)/0.45, 0., 1.);
 }
 
+/// Cells with less of either phase carry too little for the fit of a film to pay.
+constexpr double leastOfFilm = 0.03;
+
 constexpr int maxRoofParts = 256;
 
 /// The elements' parts of a roof cell as slabs: mean of the profile = log((1 + X upper)/(1 + X lower))/thickness, X = exp(psi at the node).
@@ -67,7 +70,7 @@ double roofValue(const RoofParts& parts, double alpha)
 ProfileReconstruction::ProfileReconstruction(const SimplexMesh& mesh, const NodeGraph& graph, const DualCells& cells,
     const std::vector<double>& width)
     : mesh_(mesh), graph_(graph), cells_(cells), width_(width), moments_(ShareMoments::of(mesh.dim)), kind_(mesh.nNodes), profile_(mesh.nNodes),
-      level_(mesh.nNodes), normalSum_(std::size_t(mesh.nNodes)*mesh.dim), coherence_(mesh.nNodes),
+      level_(mesh.nNodes), gradient_(std::size_t(mesh.nElements)*mesh.dim), normalSum_(std::size_t(mesh.nNodes)*mesh.dim), coherence_(mesh.nNodes),
       hasLevel_(mesh.nNodes, 0), placeInRing_(mesh.nNodes, -1)
 {
 }
@@ -78,7 +81,6 @@ void ProfileReconstruction::sumNormals(const std::vector<double>& alpha, const s
     constexpr int n = dim + 1;
     constexpr double clip = 1e-4;   // the same tail value whatever round-off has left in the bulk
     const double floorLevel = std::log(clip/(1 - clip));
-    bandElements_.clear();
     for (int i : levelNodes_)
     {
         hasLevel_[i] = 0;
@@ -91,7 +93,6 @@ void ProfileReconstruction::sumNormals(const std::vector<double>& alpha, const s
         {
             continue;
         }
-        bandElements_.push_back(e);
         for (int a = 0; a < n; ++a)
         {
             const int i = nodes[a];
@@ -106,14 +107,6 @@ void ProfileReconstruction::sumNormals(const std::vector<double>& alpha, const s
             coherence_[i] = 0;
             std::fill_n(&normalSum_[std::size_t(i)*dim], dim, 0.);
         }
-    }
-    for (int e : bandElements_)
-    {
-        if (cover && cover->state[e] == ElementState::Solid)
-        {
-            continue;
-        }
-        const int* nodes = &mesh_.elements[std::size_t(e)*n];
         const double* gradN = &mesh_.gradN[std::size_t(e)*n*dim];
         double gradient[dim] = {}, weight = 0;
         for (int a = 0; a < n; ++a)
@@ -123,6 +116,11 @@ void ProfileReconstruction::sumNormals(const std::vector<double>& alpha, const s
                 gradient[d] += level_[nodes[a]]*gradN[a*dim + d];
             }
             weight += variation(alpha[nodes[a]]);
+        }
+        std::copy_n(gradient, dim, &gradient_[std::size_t(e)*dim]);
+        if (cover && cover->state[e] == ElementState::Solid)
+        {
+            continue;
         }
         weight = (weight*weight + 1e-8)*fluidVolume(mesh_, cover, e);
         double length = 0;
@@ -245,14 +243,18 @@ void ProfileReconstruction::build(const std::vector<double>& alpha, const std::v
         std::fill_n(p.bend, 6, 0.);
         const double coherence = length/coherence_[i];
         const bool isCoherent = coherence >= coherenceLimit;
+        const bool mayBeFilm = std::min(alpha[i], 1 - alpha[i]) >= leastOfFilm;
         Ring ring;
-        findRing<dim>(i, cover, ring);
-        if (isCoherent)
+        if (isCoherent || mayBeFilm)
         {
-            bendFront<dim>(ring, alpha);
+            findRing<dim>(i, cover, ring);
+            if (isCoherent)
+            {
+                bendFront<dim>(ring, alpha);
+            }
+            fillFront<dim>(i, alpha[i]);
         }
-        fillFront<dim>(i, alpha[i]);
-        if (fitFilm<dim>(ring, alpha, isCoherent, cover))
+        if (mayBeFilm && fitFilm<dim>(ring, alpha, isCoherent, cover))
         {
             nFilms_ += i < mesh_.nOwned;
         }

@@ -24,13 +24,13 @@ enum class ProfileKind : char { Tail, Bulk, Front, Roof, Film };
 /// psi = value + steepness (taper.r -+ (normal.r + r.K r/2)), its alpha is the sum of both less 1.
 struct NodeProfile
 {
+    double value;           ///< psi at the node
+    double steepness;       ///< 1/width [1/m]
+    double roofFactor;      ///< slope of a roof over that of the interpolated psi, before it is limited to 1/width
     double normal[3];       ///< unit, into the liquid (front) or across the film
     double bend[6];         ///< K [1/m]: xx yy xy, in 3D xx yy zz xy xz yz
     double taper[3];        ///< half the gradient of a film's thickness
-    double value;           ///< psi at the node
     double otherValue;      ///< of a film's second front
-    double steepness;       ///< 1/width [1/m]
-    double roofFactor;      ///< slope of a roof over that of the interpolated psi, before it is limited to 1/width
     bool isGas;             ///< the film is of gas
 };
 
@@ -86,6 +86,8 @@ public:
     const NodeProfile& profile(int node) const { return profile_[node]; }   ///< of a front, roof or film
     /// width ln(alpha/(1-alpha)), clipped [m]: its gradient in an element has length 1 in the equilibrium profile.
     double level(int node) const { return level_[node]; }
+    /// Of the level, in an element with a node in the band: dim.
+    const double* gradient(int element) const { return &gradient_[std::size_t(element)*mesh_.dim]; }
 
     long nFronts() const { return nFronts_; }
     long nRoofs() const { return nRoofs_; }
@@ -116,8 +118,8 @@ private:
     ShareMoments moments_;
     std::vector<ProfileKind> kind_;
     std::vector<NodeProfile> profile_;
-    std::vector<double> level_, normalSum_, coherence_;
-    std::vector<int> bandElements_, levelNodes_;   // elements with a node in the band; their nodes
+    std::vector<double> level_, gradient_, normalSum_, coherence_;
+    std::vector<int> levelNodes_;       // of elements with a node in the band
     std::vector<char> hasLevel_;
     std::vector<int> placeInRing_;      // while a ring is found: of its nodes, else -1
     long nFronts_ = 0, nRoofs_ = 0, nFilms_ = 0;
