@@ -22,41 +22,40 @@ double dot(const double* a, const double* b)
     return s;
 }
 
-/// What the dual faces of one element share.
+/// Centroids of an element's dual faces, in the order of CornerPairs, and the velocities there.
 template<int dim>
 struct FaceGeometry
 {
+    using Pairs = CornerPairs<dim>;
     static constexpr int n = dim + 1;
     static constexpr DualFaceWeights weights = DualFaceWeights::of(dim);
-    const double* x[n];
-    const double* u[n];
-    double xSum[dim] = {}, uSum[dim] = {};
+    double corner[n][dim], centroid[Pairs::count][dim], velocity[Pairs::count][dim];
 
-    FaceGeometry(const SimplexMesh& mesh, const std::vector<double>& velocity, const int* nodes)
+    FaceGeometry(const SimplexMesh& mesh, const std::vector<double>& u, const int* nodes)
     {
+        double speed[n][dim], sum[dim] = {}, speedSum[dim] = {};
         for (int a = 0; a < n; ++a)
         {
-            x[a] = &mesh.x[std::size_t(nodes[a])*dim];
-            u[a] = &velocity[std::size_t(nodes[a])*dim];
             for (int d = 0; d < dim; ++d)
             {
-                xSum[d] += x[a][d];
-                uSum[d] += u[a][d];
+                corner[a][d] = mesh.x[std::size_t(nodes[a])*dim + d];
+                speed[a][d] = u[std::size_t(nodes[a])*dim + d];
+                sum[d] += corner[a][d];
+                speedSum[d] += speed[a][d];
+            }
+        }
+        for (int p = 0; p < Pairs::count; ++p)
+        {
+            const int a = Pairs::first[p], b = Pairs::second[p];
+            for (int d = 0; d < dim; ++d)
+            {
+                centroid[p][d] = atFace(sum[d], corner[a][d], corner[b][d]);
+                velocity[p][d] = atFace(speedSum[d], speed[a][d], speed[b][d]);
             }
         }
     }
 
     static double atFace(double sum, double a, double b) { return weights.far*sum + (weights.near - weights.far)*(a + b); }
-
-    /// Centroid of the dual face (a, b) relative to corner `from`, and the velocity there.
-    void evaluate(int a, int b, int from, double* offset, double* velocity) const
-    {
-        for (int d = 0; d < dim; ++d)
-        {
-            offset[d] = atFace(xSum[d], x[a][d], x[b][d]) - x[from][d];
-            velocity[d] = atFace(uSum[d], u[a][d], u[b][d]);
-        }
-    }
 };
 
 /// Faces with a profile upwind, of which the means over what passes during the step are computed together.
@@ -137,7 +136,8 @@ void DualCellTransport::addFaceValues(const Arguments& in)
 {
     using Pairs = CornerPairs<dim>;
     constexpr int n = dim + 1;
-    antiFlux_.resize(active_.size()*Pairs::count);
+    antiFlux_.resize(std::max(antiFlux_.size(), active_.size()*Pairs::count));
+    frontElements_.clear();
     SweptFaces faces;
     for (std::size_t k = 0; k < active_.size(); ++k)
     {
@@ -146,54 +146,60 @@ void DualCellTransport::addFaceValues(const Arguments& in)
         const double dt = timeStep(in, activeLevel_[k]);
         const double* flux = &flux_[std::size_t(active_[k])*Pairs::count];
         double* antiFlux = &antiFlux_[k*Pairs::count];
-        const FaceGeometry<dim> geometry(mesh_, in.u, nodes);
 
         ProfileKind kinds[n];
-        bool hasRoof = false;
+        double own[n], exchanged[n];
+        bool hasProfile = false;
         for (int a = 0; a < n; ++a)
         {
             kinds[a] = reconstruction_.kind(nodes[a]);
-            hasRoof = hasRoof || kinds[a] == ProfileKind::Roof;
+            hasProfile = hasProfile || kinds[a] > ProfileKind::Bulk;
+            own[a] = in.alpha[nodes[a]];
+            exchanged[a] = upwind_[nodes[a]];
         }
-        double gradient[dim] = {}, gradientLength = 1e-30;
-        if (hasRoof)
+        const auto plain = [&](int upwind, int other) {
+            const double most = kinds[upwind] == ProfileKind::Tail ? std::min(own[upwind], 1 - own[upwind]) : 0;
+            return own[upwind] + std::clamp(own[other] - own[upwind], -most, most) - exchanged[upwind];
+        };
+        if (!hasProfile)
         {
-            const double* g = &mesh_.gradN[std::size_t(e)*n*dim];
-            for (int a = 0; a < n; ++a)
+            for (int p = 0; p < Pairs::count; ++p)
             {
-                for (int d = 0; d < dim; ++d)
-                {
-                    gradient[d] += reconstruction_.level(nodes[a])*g[a*dim + d];
-                }
+                const int a = Pairs::first[p], b = Pairs::second[p];
+                const double fromA = plain(a, b), fromB = plain(b, a);
+                antiFlux[p] = dt*flux[p]*(flux[p] > 0 ? fromA : fromB);
             }
-            gradientLength += std::sqrt(dot<dim>(gradient, gradient));
+            continue;
+        }
+        if (std::count(kinds, kinds + n, ProfileKind::Front) > 1)
+        {
+            frontElements_.push_back(k);
         }
 
+        const double* gradient = reconstruction_.gradient(e);
+        const double gradientLength = 1e-30 + std::sqrt(dot<dim>(gradient, gradient));
+        const FaceGeometry<dim> geometry(mesh_, in.u, nodes);
         for (int p = 0; p < Pairs::count; ++p)
         {
             const int a = Pairs::first[p], b = Pairs::second[p], upwind = flux[p] > 0 ? a : b;
-            const int i = nodes[upwind];
-            const ProfileKind kind = kinds[upwind];
-            const SweptFaces::Face face{&antiFlux[p], dt*flux[p], upwind_[i], nullptr};
-            if (kind == ProfileKind::Tail)
+            if (kinds[upwind] <= ProfileKind::Bulk)
             {
-                const double own = in.alpha[i], most = std::min(own, 1 - own);
-                antiFlux[p] = face.volume*(own + std::clamp(in.alpha[nodes[a + b - upwind]] - own, -most, most) - face.upwind);
+                antiFlux[p] = dt*flux[p]*plain(upwind, a + b - upwind);
                 continue;
             }
-            if (kind == ProfileKind::Bulk)
+            const NodeProfile& profile = reconstruction_.profile(nodes[upwind]);
+            const SweptFaces::Face face{&antiFlux[p], dt*flux[p], exchanged[upwind], kinds[upwind] == ProfileKind::Film ? &profile : nullptr};
+            const double* velocity = geometry.velocity[p];
+            double offset[dim];
+            for (int d = 0; d < dim; ++d)
             {
-                antiFlux[p] = face.volume*(in.alpha[i] - face.upwind);
-                continue;
+                offset[d] = geometry.centroid[p][d] - geometry.corner[upwind][d];
             }
-            const NodeProfile& profile = reconstruction_.profile(i);
-            double offset[dim], velocity[dim];
-            geometry.evaluate(a, b, upwind, offset, velocity);
-            if (kind == ProfileKind::Film)
+            if (face.film)
             {
-                faces.addFilm<dim>({face.antiFlux, face.volume, face.upwind, &profile}, offset, velocity, dt);
+                faces.addFilm<dim>(face, offset, velocity, dt);
             }
-            else if (kind == ProfileKind::Front)
+            else if (kinds[upwind] == ProfileKind::Front)
             {
                 double direction[dim];
                 const double psi = profile.value + profile.steepness*bentDistance<dim>(profile, offset, direction);

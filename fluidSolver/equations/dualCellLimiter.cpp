@@ -32,7 +32,7 @@ void DualCellTransport::findActive(const Part& part)
         for (std::size_t k = levelStart_[l]; k < levelStart_[l + 1]; ++k)
         {
             const int e = stored_[byLevel_[k]];
-            if (isBulk(e))
+            if (isBulk<dim>(e))
             {
                 continue;
             }
@@ -54,10 +54,11 @@ void DualCellTransport::findActive(const Part& part)
         open(i);
         limiter_[2*std::size_t(i)] = limiter_[2*std::size_t(i) + 1] = 0;
     }
-    findAround(part);
+    findAround<dim>(part);
 }
 
 /// All elements around the active nodes in which alpha varies.
+template<int dim>
 void DualCellTransport::findAround(const Part& part)
 {
     aroundActive_.clear();
@@ -65,7 +66,7 @@ void DualCellTransport::findAround(const Part& part)
     {
         for (int e = 0; e < mesh_.nElements; ++e)
         {
-            if (!isBulk(e))
+            if (!isBulk<dim>(e))
             {
                 aroundActive_.push_back(e);
             }
@@ -77,7 +78,7 @@ void DualCellTransport::findAround(const Part& part)
         for (int k = graph_.nodeElementStart[i]; k < graph_.nodeElementStart[i + 1]; ++k)
         {
             const int e = graph_.nodeElement[k];
-            if (!isListed_[e] && !isBulk(e))
+            if (!isListed_[e] && !isBulk<dim>(e))
             {
                 isListed_[e] = 1;
                 aroundActive_.push_back(e);
@@ -134,13 +135,18 @@ void DualCellTransport::addLimited(const Arguments& in, std::size_t k, Transport
     const int e = stored_[at], level = activeLevel_[k];
     const int* nodes = &mesh_.elements[std::size_t(e)*n];
     double* liquidFlux = &liquidFlux_[at*Pairs::count];
-    double change[n] = {};
+    double change[n] = {}, increase[n], decrease[n];
+    for (int a = 0; a < n; ++a)
+    {
+        increase[a] = limiter_[2*std::size_t(nodes[a])];
+        decrease[a] = limiter_[2*std::size_t(nodes[a]) + 1];
+    }
     for (int p = 0; p < Pairs::count; ++p)
     {
         const int a = Pairs::first[p], b = Pairs::second[p];
         const double flux = antiFlux_[k*Pairs::count + p];
-        const int from = flux > 0 ? a : b, to = flux > 0 ? b : a;
-        const double factor = std::min(limiter_[2*std::size_t(nodes[to])], limiter_[2*std::size_t(nodes[from]) + 1]);
+        const double forward = std::min(increase[b], decrease[a]), backward = std::min(increase[a], decrease[b]);
+        const double factor = flux > 0 ? forward : backward;
         change[a] -= factor*flux;
         change[b] += factor*flux;
         liquidFlux[p] += factor*flux/in.dt;

@@ -116,7 +116,7 @@ void DualCellTransport::addUpwind(const Arguments& in, const Part& part)
                 volume[b] += flux[p];
                 liquid[a] -= carried;
                 liquid[b] += carried;
-                liquidFlux[p] += share*carried;
+                liquidFlux[p] = (part.index == 0 ? 0 : liquidFlux[p]) + share*carried;
             }
             for (int a = 0; a < n; ++a)
             {

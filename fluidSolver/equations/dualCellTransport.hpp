@@ -102,7 +102,7 @@ private:
     void findMeetingNodes();
     void findPhases(const std::vector<double>& alpha, int begin, int end);
     int elementLevel(int e) const;
-    bool isBulk(int e) const;
+    template<int dim> bool isBulk(int e) const;
 
     // one part of the step: the elements of a level and above
     struct Part
@@ -117,15 +117,16 @@ private:
     void addBoundary(const Arguments& in, const Part& part, TransportReport& report);
     void addPairs(const Arguments& in, const Part& part);
     template<int dim> void findActive(const Part& part);
-    void findAround(const Part& part);
+    template<int dim> void findAround(const Part& part);
     template<int dim> void addFaceValues(const Arguments& in);
     template<int dim> void addModelFlux(const Arguments& in);
     template<int dim> void keepProfile(const Arguments& in);
+    double profileCapacity(const Arguments& in, int i) const;
     template<int dim> double disagreement(const Arguments& in, int i, int j) const;
     template<int dim> void limit(const Arguments& in, TransportReport& report);
     template<int dim> void addLimited(const Arguments& in, std::size_t k, TransportReport& report);
     void closeCells(const Arguments& in, const Part& part, TransportReport& report);
-    double timeStep(const Arguments& in, int level) const { return std::ldexp(in.dt, -level); }
+    double timeStep(const Arguments& in, int level) const { return in.dt/(1 << level); }
     void fill(int node, double volume, double alpha) { volume_[node] += volume; liquid_[node] += volume*alpha; }
     void open(int node) { if (!isOpen_[node]) { isOpen_[node] = 1; openNodes_.push_back(node); } }
 
@@ -142,7 +143,8 @@ private:
     bool hasSolids_ = false;
 
     // one step
-    std::vector<char> phase_;               // per node: 0 empty, 1 full, 2 between
+    enum Phase : char { Empty = 1, Full = 2 };
+    std::vector<char> phase_;               // per node: Empty, Full or, between, both
     std::vector<double> inflow_, outflow_;  // per node: sums [m^dim/s]
     std::vector<double> rest_;              // per node: inflow - outflow of the elements that are not stored
     std::vector<int> level_;                // per node
@@ -155,6 +157,7 @@ private:
     std::vector<double> flux_;              // per stored element and pair of its corners, first to second [m^dim/s]
     std::vector<int> steppedNodes_;         // nodes of level 1 and above, by falling level
     std::vector<int> steppedPairs_;         // pairs with such a node, by falling level
+    std::vector<int> sorted_;               // while those are sorted
     std::vector<double> liquid_, volume_;   // per owned node: what its cell holds at this moment [m^dim]
     std::vector<double> upwind_;            // per node: their ratio
     std::vector<std::vector<int>> meeting_; // per level: nodes of it in elements of higher levels
@@ -166,11 +169,22 @@ private:
     std::vector<int> activeLevel_;          // their levels
     std::vector<int> aroundActive_;         // elements that alpha varies in, all that touch activeNodes_
     std::vector<int> activeNodes_;          // owned and first-ring nodes of the acting elements that alpha varies in
+    std::vector<std::size_t> frontElements_;    // positions in active_ of those with several fronts
     std::vector<char> isActiveNode_, isListed_;     // the latter: elements in aroundActive_
     std::vector<double> antiFlux_;          // per active element and pair: liquid beyond the upwind value [m^dim]
     std::vector<double> limiter_;           // per node: {increase, decrease}: first sums, then factors
     std::vector<int> openNodes_;            // nodes whose alpha may change
     std::vector<char> isOpen_;
 };
+
+/// alpha does not vary in the element.
+template<int dim>
+inline bool DualCellTransport::isBulk(int e) const
+{
+    const int* nodes = &mesh_.elements[std::size_t(e)*(dim + 1)];
+    int phases = 0;
+    for (int a = 0; a <= dim; ++a) phases |= phase_[nodes[a]];  // no branch: none could be foretold near the surface
+    return phases != (Empty | Full);
+}
 
 } // namespace flotsam

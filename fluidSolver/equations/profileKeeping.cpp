@@ -14,24 +14,22 @@ namespace
 constexpr double mostOfDisagreement = 0.1;  // that a pair gives up in a part of the step: explicit
 constexpr double sameSurface = 0.5;         // least cosine between the planes of two cells of one surface
 
-/// alpha that a cell's mean gains per length by which its surface moves [1/m].
-double capacity(double alpha, double width)
-{
-    return variation(alpha)/width;
-}
-
 } // namespace
+
+/// alpha that a cell's mean gains per length by which its surface moves [1/m]; 0 in cells without one.
+double DualCellTransport::profileCapacity(const Arguments& in, int i) const
+{
+    const bool hasSurface = reconstruction_.kind(i) == ProfileKind::Front && in.surface->planes.has(i) && (!in.cover || in.cover->isActiveNode[i]);
+    return hasSurface ? variation(in.alpha[i])/width_[i] : 0;
+}
 
 /// By how much node i puts the surface further into the gas than node j does [m], times the square of the cosine between their connection and
 /// the surface's normal: beside each other they may differ. By the mean of both planes, which is exact to the third order on a bent surface.
+/// Both nodes have a surface.
 template<int dim>
 double DualCellTransport::disagreement(const Arguments& in, int i, int j) const
 {
     const InterfacePlanes& planes = in.surface->planes;
-    const auto isFront = [&](int k) {
-        return reconstruction_.kind(k) == ProfileKind::Front && planes.has(k) && (!in.cover || in.cover->isActiveNode[k]);
-    };
-    if (!isFront(i) || !isFront(j)) return 0;
     double along = 0, square = 0, cosine = 0;
     for (int d = 0; d < dim; ++d)
     {
@@ -51,19 +49,21 @@ void DualCellTransport::keepProfile(const Arguments& in)
 {
     using Pairs = CornerPairs<dim>;
     constexpr int n = dim + 1;
-    for (std::size_t k = 0; k < active_.size(); ++k)
+    for (std::size_t k : frontElements_)
     {
         const int e = stored_[active_[k]];
         const int* nodes = &mesh_.elements[std::size_t(e)*n];
+        double capacity[n];
+        for (int a = 0; a < n; ++a) capacity[a] = profileCapacity(in, nodes[a]);
         const double share = std::min(mostOfDisagreement, timeStep(in, activeLevel_[k])*in.surface->rate/std::sqrt(mesh_.h[e]));
         const double volume = share*fluidVolume(mesh_, in.cover, e)/n;
         for (int p = 0; p < Pairs::count; ++p)
         {
-            const int i = nodes[Pairs::first[p]], j = nodes[Pairs::second[p]];
+            const int a = Pairs::first[p], b = Pairs::second[p], i = nodes[a], j = nodes[b];
+            if (capacity[a] == 0 || capacity[b] == 0) continue;
             const double distance = disagreement<dim>(in, i, j);
             if (distance == 0) continue;
-            const double own = capacity(in.alpha[i], width_[i]), other = capacity(in.alpha[j], width_[j]);
-            antiFlux_[k*Pairs::count + p] += volume*distance*2*own*other/(own + other);
+            antiFlux_[k*Pairs::count + p] += volume*distance*2*capacity[a]*capacity[b]/(capacity[a] + capacity[b]);
         }
     }
 }

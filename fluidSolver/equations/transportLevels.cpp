@@ -3,6 +3,7 @@
 #include "equations/dualCellTransport.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -18,23 +19,35 @@ namespace
 constexpr double bulkTolerance = 1e-12;
 constexpr int maxLevel = 10;
 
+/// Items of level 1 and above; those of a level stay in their order. `sorted` is working space.
+template<class LevelOf>
+void sortByFallingLevel(std::vector<int>& items, std::vector<int>& sorted, const LevelOf& levelOf)
+{
+    std::array<std::size_t, maxLevel + 1> next{};   // per level: place of its next item
+    for (int k : items)
+    {
+        ++next[levelOf(k) - 1];
+    }
+    for (int l = maxLevel; l > 0; --l)
+    {
+        next[l - 1] += next[l];
+    }
+    sorted.resize(items.size());
+    for (int k : items)
+    {
+        sorted[next[levelOf(k)]++] = k;
+    }
+    items.swap(sorted);
+}
+
 } // namespace
 
 void DualCellTransport::findPhases(const std::vector<double>& alpha, int begin, int end)
 {
     for (int i = begin; i < end; ++i)
     {
-        phase_[i] = alpha[i] <= bulkTolerance ? 0 : alpha[i] >= 1 - bulkTolerance ? 1 : 2;
+        phase_[i] = alpha[i] <= bulkTolerance ? Empty : alpha[i] >= 1 - bulkTolerance ? Full : Empty | Full;
     }
-}
-
-/// alpha does not vary in the element.
-bool DualCellTransport::isBulk(int e) const
-{
-    const int n = mesh_.dim + 1;
-    const int* nodes = &mesh_.elements[std::size_t(e)*n];
-    const char first = phase_[nodes[0]];
-    return first != 2 && std::all_of(nodes + 1, nodes + n, [&](int i) { return phase_[i] == first; });
 }
 
 int DualCellTransport::elementLevel(int e) const
@@ -60,7 +73,7 @@ void DualCellTransport::sumElementRates(const Arguments& in)
     std::fill(rest_.begin(), rest_.end(), 0.);
     for (int e : stored_) storedAt_[e] = -1;
     stored_.clear();
-    for (int e = 0; e < mesh_.nInnerElements; ++e) if (!isBulk(e)) stored_.push_back(e);
+    for (int e = 0; e < mesh_.nInnerElements; ++e) if (!isBulk<dim>(e)) stored_.push_back(e);
     flux_.resize(stored_.size()*Pairs::count);
     std::size_t position = 0;
     for (int e = 0; e < mesh_.nInnerElements; ++e)
@@ -129,7 +142,7 @@ void DualCellTransport::findNodeLevels(const Arguments& in)
             steppedNodes_.push_back(i);
         }
     }
-    std::stable_sort(steppedNodes_.begin(), steppedNodes_.end(), [this](int a, int b) { return level_[a] > level_[b]; });
+    sortByFallingLevel(steppedNodes_, sorted_, [this](int i) { return level_[i]; });
     steppedPairs_.clear();
     for (std::size_t k = 0; k < in.pairFlux.size() && largestLevel_ > 0; ++k)
     {
@@ -138,8 +151,7 @@ void DualCellTransport::findNodeLevels(const Arguments& in)
             steppedPairs_.push_back(int(k));
         }
     }
-    const auto levelOf = [&](int k) { return std::max(level_[in.pairFlux[k].a], level_[in.pairFlux[k].b]); };
-    std::stable_sort(steppedPairs_.begin(), steppedPairs_.end(), [&](int a, int b) { return levelOf(a) > levelOf(b); });
+    sortByFallingLevel(steppedPairs_, sorted_, [&](int k) { return std::max(level_[in.pairFlux[k].a], level_[in.pairFlux[k].b]); });
 }
 
 /// Elements of higher levels exchange several times, and alpha may begin to vary in them on the way: they are stored as well.
@@ -232,7 +244,7 @@ void DualCellTransport::findLevels(const Arguments& in)
     {
         storeSteppedBulk<dim>(in);
     }
-    liquidFlux_.assign(flux_.size(), 0.);
+    liquidFlux_.resize(flux_.size());
     sortElements();
     findMeetingNodes();
 }
