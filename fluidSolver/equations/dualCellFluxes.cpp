@@ -176,7 +176,8 @@ void DualCellTransport::addFaceValues(const Arguments& in)
             frontElements_.push_back(k);
         }
 
-        const double* gradient = reconstruction_.gradient(e);
+        double gradient[dim];
+        reconstruction_.levelGradient<dim>(e, gradient);
         const double gradientLength = 1e-30 + std::sqrt(dot<dim>(gradient, gradient));
         const FaceGeometry<dim> geometry(mesh_, in.u, nodes);
         for (int p = 0; p < Pairs::count; ++p)

@@ -61,22 +61,22 @@ void ProfileReconstruction::findFilmAxes(int i, const std::vector<double>& alpha
         {
             continue;
         }
-        const double* g = gradient(e);
-        double length = 1e-30, weight = 0;
+        double gradient[dim], length = 1e-30, weight = 0;
+        levelGradient<dim>(e, gradient);
         for (int a = 0; a < n; ++a)
         {
             weight += variation(alpha[mesh_.elements[std::size_t(e)*n + a]]);
         }
         for (int d = 0; d < dim; ++d)
         {
-            length += g[d]*g[d];
+            length += gradient[d]*gradient[d];
         }
         weight *= weight*mesh_.volume[e]/std::sqrt(length);
         for (int d = 0; d < dim; ++d)
         {
             for (int c = 0; c < dim; ++c)
             {
-                tensor[d][c] += weight*g[d]*g[c];
+                tensor[d][c] += weight*gradient[d]*gradient[c];
             }
         }
     }

@@ -70,7 +70,7 @@ double roofValue(const RoofParts& parts, double alpha)
 ProfileReconstruction::ProfileReconstruction(const SimplexMesh& mesh, const NodeGraph& graph, const DualCells& cells,
     const std::vector<double>& width)
     : mesh_(mesh), graph_(graph), cells_(cells), width_(width), moments_(ShareMoments::of(mesh.dim)), kind_(mesh.nNodes), profile_(mesh.nNodes),
-      level_(mesh.nNodes), gradient_(std::size_t(mesh.nElements)*mesh.dim), normalSum_(std::size_t(mesh.nNodes)*mesh.dim), coherence_(mesh.nNodes),
+      level_(mesh.nNodes), normalSum_(std::size_t(mesh.nNodes)*mesh.dim), coherence_(mesh.nNodes),
       hasLevel_(mesh.nNodes, 0), placeInRing_(mesh.nNodes, -1)
 {
 }
@@ -107,20 +107,15 @@ void ProfileReconstruction::sumNormals(const std::vector<double>& alpha, const s
             coherence_[i] = 0;
             std::fill_n(&normalSum_[std::size_t(i)*dim], dim, 0.);
         }
-        const double* gradN = &mesh_.gradN[std::size_t(e)*n*dim];
-        double gradient[dim] = {}, weight = 0;
-        for (int a = 0; a < n; ++a)
-        {
-            for (int d = 0; d < dim; ++d)
-            {
-                gradient[d] += level_[nodes[a]]*gradN[a*dim + d];
-            }
-            weight += variation(alpha[nodes[a]]);
-        }
-        std::copy_n(gradient, dim, &gradient_[std::size_t(e)*dim]);
         if (cover && cover->state[e] == ElementState::Solid)
         {
             continue;
+        }
+        double gradient[dim], weight = 0;
+        levelGradient<dim>(e, gradient);
+        for (int a = 0; a < n; ++a)
+        {
+            weight += variation(alpha[nodes[a]]);
         }
         weight = (weight*weight + 1e-8)*fluidVolume(mesh_, cover, e);
         double length = 0;

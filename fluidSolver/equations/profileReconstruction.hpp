@@ -86,8 +86,8 @@ public:
     const NodeProfile& profile(int node) const { return profile_[node]; }   ///< of a front, roof or film
     /// width ln(alpha/(1-alpha)), clipped [m]: its gradient in an element has length 1 in the equilibrium profile.
     double level(int node) const { return level_[node]; }
-    /// Of the level, in an element with a node in the band: dim.
-    const double* gradient(int element) const { return &gradient_[std::size_t(element)*mesh_.dim]; }
+    /// Gradient of the level in an element with a node in the band.
+    template<int dim> void levelGradient(int element, double (&gradient)[dim]) const;
 
     long nFronts() const { return nFronts_; }
     long nRoofs() const { return nRoofs_; }
@@ -118,11 +118,27 @@ private:
     ShareMoments moments_;
     std::vector<ProfileKind> kind_;
     std::vector<NodeProfile> profile_;
-    std::vector<double> level_, gradient_, normalSum_, coherence_;
+    std::vector<double> level_, normalSum_, coherence_;
     std::vector<int> levelNodes_;       // of elements with a node in the band
     std::vector<char> hasLevel_;
     std::vector<int> placeInRing_;      // while a ring is found: of its nodes, else -1
     long nFronts_ = 0, nRoofs_ = 0, nFilms_ = 0;
 };
+
+template<int dim>
+inline void ProfileReconstruction::levelGradient(int element, double (&gradient)[dim]) const
+{
+    constexpr int n = dim + 1;
+    const int* nodes = &mesh_.elements[std::size_t(element)*n];
+    const double* gradN = &mesh_.gradN[std::size_t(element)*n*dim];
+    std::fill_n(gradient, dim, 0.);
+    for (int a = 0; a < n; ++a)
+    {
+        for (int d = 0; d < dim; ++d)
+        {
+            gradient[d] += level_[nodes[a]]*gradN[a*dim + d];
+        }
+    }
+}
 
 } // namespace flotsam
