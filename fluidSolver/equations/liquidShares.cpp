@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "equations/liquidShares.hpp"
 
+#include "core/elementaryFunctions.hpp"
 #include "equations/dualCells.hpp"
-#include "equations/surfaceLevel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +15,9 @@ namespace
 
 constexpr double pure = 1e-3;       // alpha this near to 0 and 1 is spread evenly: half of a shallow flume's nodes have traces of the other fluid
 constexpr int maxIterations = 30;   // of Newton's method for the plane's place
-constexpr double exactEnough = 1e-12;
+constexpr double nearEnough = 1e-3; // widths of the plane from its place: the rest is linear
+constexpr double thinnest = 1e-3;   // slab, in widths
+constexpr double farthest = 700;    // from the surface, in widths: what exp() can tell from infinity
 
 /// The corner's share of an element: fluid volume, and as a slab along the normal, in widths of the profile.
 struct Share
@@ -43,7 +45,8 @@ public:
             if (band_[i] < 0) continue;
             collectShares(i);
             if (!hasNormal() || !placeSurface(alpha_[i])) continue;
-            for (const Share& s : shares_) result_[s.slot] = s.volume*((1 - planarity_)*alpha_[i] + planarity_*meanOf(s));
+            for (std::size_t k = 0; k < shares_.size(); ++k)
+                result_[shares_[k].slot] = shares_[k].volume*((1 - planarity_)*alpha_[i] + planarity_*mean_[k]);
         }
         return std::move(result_);
     }
@@ -146,12 +149,41 @@ private:
         }
         const double mean = moments_.first*sum, scale = 1/(width_*mesh_.h[e]);
         const double variance = (moments_.square - moments_.mixed)*squares + moments_.mixed*sum*sum - mean*mean;
-        return {slot, volume, mean*scale, std::sqrt(12*std::max(0.0, variance))*scale};
+        return {slot, volume, mean*scale, std::max(thinnest, std::sqrt(12*std::max(0.0, variance))*scale)};
     }
 
-    double meanOf(const Share& s) const { return ProfileSlab{s.middle + place_, s.thickness}.mean() + error_; }
+    /// Means of the profile 1/(1+exp(-psi)) over the slabs, and their derivatives by place_: differences of ln(1+exp(psi)) and of the profile.
+    void evaluateShares()
+    {
+        const std::size_t n = shares_.size();
+        end_.resize(2*n);
+        exp_.resize(2*n);
+        log_.resize(2*n);
+        mean_.resize(n);
+        slope_.resize(n);
+        for (std::size_t k = 0; k < 2*n; ++k)
+        {
+            const Share& s = shares_[k/2];
+            end_[k] = s.middle + place_ + (k % 2 ? -0.5 : 0.5)*s.thickness;
+            exp_[k] = -std::min(std::abs(end_[k]), farthest);
+        }
+        exponentials(exp_.data(), int(2*n));
+        for (std::size_t k = 0; k < 2*n; ++k) log_[k] = 1 + exp_[k];
+        logarithms(log_.data(), int(2*n));
+        for (std::size_t k = 0; k < 2*n; ++k)
+        {
+            const double e = exp_[k];
+            exp_[k] = (end_[k] > 0 ? 1 : e)/(1 + e);
+            log_[k] += std::max(end_[k], 0.0);
+        }
+        for (std::size_t k = 0; k < n; ++k)
+        {
+            mean_[k] = (log_[2*k] - log_[2*k + 1])/shares_[k].thickness;
+            slope_[k] = (exp_[2*k] - exp_[2*k + 1])/shares_[k].thickness;
+        }
+    }
 
-    /// Newton's method for the plane with which the shares have `alpha` of their volume; what it leaves goes to all alike. False where it finds none.
+    /// Newton's method for the plane with which the shares have `alpha` of their volume: mean_. The last step is linear, so that they have just that. False where it finds none.
     bool placeSurface(double alpha)
     {
         double whole = 0, centre = 0;
@@ -161,15 +193,19 @@ private:
         for (int k = 0; k < maxIterations; ++k)
         {
             double mean = 0, slope = 0;
-            for (const Share& s : shares_)
+            evaluateShares();
+            for (std::size_t s = 0; s < shares_.size(); ++s)
             {
-                const ProfileSlab slab{s.middle + place_, s.thickness};
-                mean += s.volume/whole*slab.mean();
-                slope += s.volume/whole*slab.slope();
+                mean += shares_[s].volume/whole*mean_[s];
+                slope += shares_[s].volume/whole*slope_[s];
             }
-            error_ = alpha - mean;
-            if (std::abs(error_) < exactEnough) return true;
-            place_ += std::clamp(error_/std::max(slope, 1e-30), -2.0, 2.0);
+            const double step = (alpha - mean)/std::max(slope, 1e-30);
+            if (std::abs(step) < nearEnough)
+            {
+                for (std::size_t s = 0; s < shares_.size(); ++s) mean_[s] += step*slope_[s];
+                return true;
+            }
+            place_ += std::clamp(step, -2.0, 2.0);
         }
         return false;
     }
@@ -189,7 +225,8 @@ private:
     double normal_[3] = {};
     double planarity_ = 0;  // 1: all gradients around point the same way; in the middle of a sheet they cancel
     double place_ = 0;      // of the plane: of the node from it, in widths
-    double error_ = 0;
+    std::vector<double> mean_, slope_;      // of the shares
+    std::vector<double> end_, exp_, log_;   // of their slabs' two ends: psi; functions of it
 };
 
 } // namespace
