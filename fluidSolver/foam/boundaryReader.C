@@ -47,14 +47,18 @@ bool hasField(const Foam::polyMesh& mesh, const Foam::word& name)
     return io.typeHeaderOk<Foam::localIOdictionary>(false);
 }
 
+void checkDimensions(const RawField& field, const std::string& name, const Foam::dimensionSet& allowed)
+{
+    if (field.dimensions() != allowed)
+        failIn(field.dict(), text(name, " has dimensions ", toString(field.dimensions()), "; allowed: ", toString(allowed), "."));
+}
+
 /// Factor that makes the file's pressures Pa (kinematic pressures of a single fluid: its density).
 double pressureScale(const RawField& field, const CaseControls& controls)
 {
     if (field.dimensions() == Foam::dimPressure) return 1;
     if (field.dimensions() == Foam::dimPressure/Foam::dimDensity && !controls.fluid.isTwoPhase) return controls.fluid.rhoLiquid;
-    std::ostringstream found;
-    for (int k = 0; k < 7; ++k) found << (k ? " " : "") << field.dimensions()[static_cast<Foam::dimensionSet::dimensionType>(k)];
-    failIn(field.dict(), text("The pressure has dimensions [", found.str(), "]; allowed: [1 -1 -2 0 0 0 0] (Pa)",
+    failIn(field.dict(), text("The pressure has dimensions ", toString(field.dimensions()), "; allowed: [1 -1 -2 0 0 0 0] (Pa)",
         controls.fluid.isTwoPhase ? "." : " or [0 2 -2 0 0 0 0] (kinematic, single fluid)."));
 }
 
@@ -114,10 +118,22 @@ std::vector<int> wallNodes(const std::vector<PatchSource>& sources, const RawFie
     return isWallNode;
 }
 
+/// startTime may name a time that is not there.
+void checkTimeFolder(const Foam::Time& runTime)
+{
+    if (Foam::isDir(runTime.timePath())) return;
+    std::string there;
+    for (const Foam::instant& time : runTime.times())
+        if (time.name() != runTime.constant()) there += ' ' + time.name();
+    FatalErrorInFunction << "Time folder " << runTime.timePath() << " is missing; there are:" << (there.empty() ? " none" : there.c_str()) << Foam::nl
+        << "    Set startFrom and startTime in system/controlDict, or copy 0.orig to 0." << Foam::exit(Foam::FatalError);
+}
+
 } // namespace
 
 std::string pressureFieldName(const Foam::polyMesh& mesh, const CaseControls& controls)
 {
+    checkTimeFolder(mesh.time());
     if (hasField(mesh, "p_rgh")) return "p_rgh";
     if (controls.fluid.isTwoPhase)
         FatalErrorInFunction << "File " << mesh.time().timePath()/"p_rgh" << " is missing: two fluids are solved as in interFoam, "
@@ -132,6 +148,8 @@ std::vector<BoundaryPatch> readBoundary(const Foam::polyMesh& mesh, const MeshAd
     const RawField pressure(mesh, pressureName, "volScalarField");
     std::unique_ptr<RawField> phase;
     if (controls.fluid.isTwoPhase) phase = std::make_unique<RawField>(mesh, controls.alphaName, "volScalarField");
+    checkDimensions(velocity, "U", Foam::dimVelocity);
+    if (phase) checkDimensions(*phase, controls.alphaName, Foam::dimless);
     const double scale = pressureScale(pressure, controls);
 
     const auto sources = patchSources(mesh, adapter, halo);

@@ -156,6 +156,17 @@ bool exists(const Foam::Time& runTime, const char* name)
     return Foam::isFile(runTime.path()/runTime.caseConstant()/name) || Foam::isFile(runTime.path()/runTime.constant()/name);
 }
 
+/// A uniform field of the folder constant, in the right dimensions.
+template<class Field>
+auto readUniform(const Foam::Time& runTime, const char* name, const Foam::dimensionSet& allowed)
+{
+    const Field field(inputFile(runTime, name, runTime.constant()));
+    if (field.dimensions() != allowed)
+        FatalErrorInFunction << "File " << field.objectPath() << ": dimensions " << toString(field.dimensions()).c_str() << "; allowed: "
+            << toString(allowed).c_str() << "." << Foam::exit(Foam::FatalError);
+    return field.value();
+}
+
 void readGravity(const Foam::Time& runTime, CaseControls& controls)
 {
     if (!exists(runTime, "g"))
@@ -165,10 +176,10 @@ void readGravity(const Foam::Time& runTime, CaseControls& controls)
                 << "    Give it as interFoam does: dimensions [0 1 -2 0 0 0 0]; value (0 0 -9.81);" << Foam::exit(Foam::FatalError);
         return;
     }
-    const Foam::vector g = Foam::uniformDimensionedVectorField(inputFile(runTime, "g", runTime.constant())).value();
+    const Foam::vector g = readUniform<Foam::uniformDimensionedVectorField>(runTime, "g", Foam::dimAcceleration);
     controls.fluid.gravity = {g.x(), g.y(), g.z()};
     if (!exists(runTime, "hRef")) return;
-    const double hRef = Foam::uniformDimensionedScalarField(inputFile(runTime, "hRef", runTime.constant())).value();
+    const double hRef = readUniform<Foam::uniformDimensionedScalarField>(runTime, "hRef", Foam::dimLength);
     controls.gravityPotentialRef = -Foam::mag(g)*hRef;
 }
 

@@ -15,6 +15,13 @@ void failIn(const Foam::dictionary& dict, const std::string& message)
     throw std::logic_error(message); // never reached: exit() ends the run or throws
 }
 
+std::string toString(const Foam::dimensionSet& dimensions)
+{
+    std::ostringstream s;
+    for (int k = 0; k < 7; ++k) s << (k ? " " : "[") << dimensions[static_cast<Foam::dimensionSet::dimensionType>(k)];
+    return s.str() + "]";
+}
+
 std::string toString(const Range& range)
 {
     if (range.upper >= 1e300)

@@ -35,6 +35,8 @@ refused keyword 'setNumerics . "nitscheGama 10;"' \
 refused range 'setNumerics . "tolerance -1;"' \
     fvSolution tolerance -1
 refused missingField 'rm 0/p_rgh' p_rgh
+refused missingTime 'setEntry system/controlDict startFrom startTime; setEntry system/controlDict startTime 0.7' \
+    'Time folder' 0.7 'there are: 0$' startTime
 refused unknownCondition 'sed -i "s/pressureInletOutletVelocity/waveVelocity/" 0/U' \
     waveVelocity atmosphere 'not available' pressureInletOutletVelocity
 refused turbulence 'sed -i "s/laminar;/RAS;/" constant/turbulenceProperties' RAS turbulenceProperties 'allowed: laminar'
@@ -49,6 +51,10 @@ refused openStl 'mkdir -p constant/triSurface
     sed -i "s/type box; size (0.02 0.02 0.05);/type stl; file \"open.stl\";/" constant/bodies' \
     open.stl
 refused twoShort 'sed -i "s/size (0.02 0.02 0.05)/size (0.02 0.02 0.03)/" constant/bodies' bar 'front to back'
+
+rm -rf beside && cp -r good beside
+echo 'structures { pier { shape { type cylinder; end1 (5 0 0); end2 (5 0 0.05); radius 0.01; } } }' >> beside/constant/bodies
+(cd beside && quietly flotsamFoam -dry-run && grep -q 'structure pier lies outside of the mesh' log.flotsamFoam) || fail "a structure beside the mesh is not mentioned"
 
 echo "$failures of the mistakes were not refused as promised"
 [ $failures -eq 0 ]

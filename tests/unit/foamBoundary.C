@@ -242,7 +242,10 @@ TEST_CASE("what is not available is refused, with what could be used instead")
     CHECK(has(refused("0/U", "type zeroGradient", "type inletOutlet; inletValue uniform (1 0 0); value uniform (1 0 0)"), "inletValue"));
     CHECK(has(refused("0/alpha.water", "inletValue uniform 0", "inletValue uniform 1.5"), "from 0 to 1"));
     CHECK(has(refused("0/alpha.water", "type zeroGradient; }\n    floor", "type constantAlphaContactAngle; theta0 30; limit none; value uniform 0; }\n    floor"), "theta0 30 is not modelled"));
-    CHECK(has(refused("0/p_rgh", "[1 -1 -2 0 0 0 0]", "[0 2 -2 0 0 0 0]"), "dimensions"));
+    CHECK(has(refused("0/p_rgh", "[1 -1 -2 0 0 0 0]", "[0 2 -2 0 0 0 0]"), "The pressure has dimensions [0 2 -2 0 0 0 0]; allowed: [1 -1 -2 0 0 0 0]"));
+    CHECK(has(refused("0/U", "[0 1 -1 0 0 0 0]", "[0 1 -2 0 0 0 0]"), "U has dimensions [0 1 -2 0 0 0 0]; allowed: [0 1 -1 0 0 0 0]"));
+    CHECK(has(refused("0/alpha.water", "[0 0 0 0 0 0 0]", "[1 0 0 0 0 0 0]"), "alpha.water has dimensions [1 0 0 0 0 0 0]; allowed: [0 0 0 0 0 0 0]"));
+    CHECK(has(refused("constant/g", "[0 1 -2 0 0 0 0]", "[0 1 -1 0 0 0 0]"), "[0 1 -1 0 0 0 0]; allowed: [0 1 -2 0 0 0 0]"));
 }
 
 TEST_CASE("combinations: prescribed velocity and prescribed pressure do not go together, everything else does")
