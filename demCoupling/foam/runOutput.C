@@ -48,10 +48,22 @@ RunOutput::RunOutput(const Foam::Time& runTime, const SimplexMesh& mesh, const H
 
 Foam::fileName RunOutput::stateFile() const { return runTime_.timePath()/"flotsamState.h5"; }
 
+/// flotsamFoam wrote this time, but on other processes: reconstructPar and decomposePar leave the state behind.
+void RunOutput::warnAnew() const
+{
+    Foam::Info<< "Warning: time " << runTime_.timeName() << " has fields of flotsamFoam, but no flotsamState.h5: the run does not continue, it starts anew from"
+        << " these fields" << (members_.size() > std::size_t(nStructures_) ? ", with the bodies at their places in constant/bodies" : "")
+        << ".\n    A run continues on the number of processes that wrote the state (processor*/" << runTime_.timeName() << ").\n" << Foam::endl;
+}
+
 bool RunOutput::readState(CoupledStep& step)
 {
     const bool isHere = Foam::isFile(stateFile());
-    if (!halo_.any(isHere)) return false;
+    if (!halo_.any(isHere))
+    {
+        if (halo_.any(Foam::isFile(runTime_.timePath()/"pointU"))) warnAnew();
+        return false;
+    }
     if (halo_.any(!isHere))
         throw std::runtime_error("restart: flotsamState.h5 is missing on some ranks at time " + runTime_.timeName()
             + "; continue on the number of ranks that wrote it");

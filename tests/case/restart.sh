@@ -93,3 +93,7 @@ for ranks in 1 2; do
     stopAndGoOn jam$ranks 0.03 0.06 $ranks
     mustTouch jam$ranks 0.03 bar.0 bar.1 bar.2 pipes.1 pipes.3 pipes.5
 done
+
+# on another number of processes the state is missing: said, not passed over
+setEntry jam2/system/controlDict endTime 0.064
+(cd jam2 && quietly flotsamFoam && grep -q 'does not continue, .* places in constant/bodies' log.flotsamFoam) || fail "a run without its state says nothing"
