@@ -123,6 +123,10 @@ void BodyHistory::Implementation::create()
     out.setAttribute("/", "formatVersion", std::int64_t(1));
     out.createTable("/run/time", 1, chunkRows);
     out.setAttribute("/run/time", "unit", std::string("s"));
+    // both groups also where they have no members: scripts loop over them
+    const auto nStructures = std::count_if(members.begin(), members.end(), [](const HistoryMember& m) { return m.isStructure; });
+    out.setAttribute("/structures", "members", std::int64_t(nStructures));
+    out.setAttribute("/bodies", "members", std::int64_t(members.size()) - nStructures);
     for (std::size_t m = 0; m < members.size(); ++m)
     {
         const std::string group = groupOf(members[m]) + "/";

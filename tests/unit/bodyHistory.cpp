@@ -233,6 +233,19 @@ TEST_CASE("bad names and files are refused")
     CHECK_THROWS_WITH_AS(BodyHistory(folder / "b.h5", members(), 0), doctest::Contains("b.h5"), std::runtime_error);
 }
 
+TEST_CASE("both groups are there, also without members")
+{
+    const TemporaryFolder folder("historyEmpty");
+    const std::string file = folder / "bodies.h5";
+    { BodyHistory history(file, {}, 0); }
+    Hdf5File in(file, Hdf5File::Mode::Read);
+    for (const char* group : {"/structures", "/bodies"})
+    {
+        CHECK(in.exists(group));
+        CHECK(in.names(group).empty());
+    }
+}
+
 TEST_CASE("appending is cheap" * doctest::may_fail()) // wall time on a shared machine
 {
     const TemporaryFolder folder("historyCost");
