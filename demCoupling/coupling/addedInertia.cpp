@@ -6,13 +6,6 @@
 namespace flotsam
 {
 
-namespace
-{
-
-constexpr double leastFactor = 8; // below, repeats converge by themselves, and in a jam the factors of neighbours disturb each other
-
-} // namespace
-
 double radiusOfInertia(const BodyDefinition& body) { return std::sqrt(body.principalInertia.maxCoeff()/body.mass); }
 
 AddedInertia::AddedInertia(const std::vector<BodyDefinition>& bodies, const CouplingControls& controls)
@@ -20,6 +13,8 @@ AddedInertia::AddedInertia(const std::vector<BodyDefinition>& bodies, const Coup
 {}
 
 double AddedInertia::expected(int b) const { return 1 + controls_.liquidDensity*bodies_[b].volume/bodies_[b].mass; }
+
+double AddedInertia::largestFactor(int b) const { return 2*expected(b) - 1; }
 
 bool AddedInertia::isLight(int b) const { return expected(b) >= leastFactor; }
 
@@ -42,7 +37,7 @@ bool AddedInertia::raise(const std::vector<Load>& contactChange, const std::vect
     {
         const BodyDefinition& body = bodies_[b];
         const double least = std::max(0.5*largest, controls_.tolerance*body.mass*controls_.gravity); // below: answers to others, noise
-        const double most = 1 + 2*controls_.liquidDensity*body.volume/body.mass;
+        const double most = largestFactor(int(b));
         auto raiseOne = [&](double& factor, const Vec3& change, const Vec3& answer, double leastChange)
         {
             if (change.norm() < leastChange || change.isZero(0)) return;

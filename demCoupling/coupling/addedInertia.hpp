@@ -26,8 +26,10 @@ public:
     void setFactors(const std::vector<InertiaFactor>& factors) { factors_ = factors; }
     void drop(int body) { factors_[body] = InertiaFactor(); }
 
-    /// So light that a factor may be due.
+    /// So light that a factor is due from the start.
     bool isLight(int body) const;
+    /// So light that raise() may give it one.
+    bool mayNeedFactor(int body) const { return largestFactor(body) >= leastFactor; }
 
     /// Error of a body's contact load over its last change: what contracts by r a time is still off by change/(1 - r). From the liquid the body
     /// displaces, over its factors: it must be known before there are changes. 1 for bodies that need no factor.
@@ -40,7 +42,10 @@ public:
     std::vector<Load> engineLoads(const std::vector<Load>& loads, const std::vector<Load>& contact) const;
 
 private:
-    double expected(int body) const;    ///< (mass + displaced liquid)/mass
+    static constexpr double leastFactor = 8;    // below, repeats converge by themselves, and in a jam the factors of neighbours disturb each other
+
+    double expected(int body) const;        ///< (mass + displaced liquid)/mass
+    double largestFactor(int body) const;   ///< the same, with twice the liquid
 
     std::vector<BodyDefinition> bodies_;
     CouplingControls controls_;

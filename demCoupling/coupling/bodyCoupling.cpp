@@ -207,7 +207,7 @@ BodyState BodyCoupling::drifted(int b) const
 bool BodyCoupling::hasLightBodies() const
 {
     for (int b = 0; b < nBodies(); ++b)
-        if (inertia_.isLight(b)) return true;
+        if (inertia_.mayNeedFactor(b)) return true;
     return false;
 }
 
@@ -229,7 +229,7 @@ std::string BodyCoupling::brokenContact(double fluidSpeed) const
 
 bool BodyCoupling::correct(const std::vector<Load>& loads)
 {
-    if (repeats() > 0 && inertia_.raise(iteration_.lastChange(), difference(loads, loads_))) iteration_.forget();
+    if (iteration_.isNewGuess() && inertia_.raise(iteration_.lastChange(), difference(loads, loads_))) iteration_.forget();
     loads_ = loads;
     if (!isAtStart_) guarded([&] { engine_->restore(saved_); });
     isAtStart_ = false;

@@ -18,6 +18,7 @@ void ContactIteration::begin(double dt)
 {
     dt_ = dt;
     repeats_ = 0;
+    isNewGuess_ = false;
     anderson_.reset();
 }
 
@@ -36,7 +37,8 @@ bool ContactIteration::take(const std::vector<Load>& loads, const AddedInertia& 
     const double scale = found.cwiseAbs().maxCoeff() + controls_.gravity*dt_, before = mismatch_;
     mismatch_ = scale > 0 ? change/scale : 0;
     if (repeats_ > 0 && mismatch_ > before) anderson_.reset(); // contacts that open or close: a plain step converges
-    if (mismatch_ <= controls_.tolerance || repeats_ >= controls_.maxRepeats) return true;
+    isNewGuess_ = mismatch_ > controls_.tolerance && repeats_ < controls_.maxRepeats;
+    if (!isNewGuess_) return true;
     ++repeats_;
     guessBefore_ = guess_;
     guess_ = unscaled(anderson_.next(used, found), factors);

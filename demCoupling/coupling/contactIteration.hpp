@@ -27,6 +27,7 @@ public:
     std::vector<Load> lastChange() const;           ///< of the guess, within this step
 
     int repeats() const { return repeats_; }
+    bool isNewGuess() const { return isNewGuess_; } ///< of the last take()
     double mismatch() const { return mismatch_; }   ///< of the last take(), as CouplingControls::tolerance
 
 private:
@@ -39,6 +40,7 @@ private:
     Anderson anderson_;
     double dt_ = 0, mismatch_ = 0;
     int repeats_ = 0;
+    bool isNewGuess_ = false;
 };
 
 } // namespace flotsam

@@ -17,7 +17,7 @@ void GhostHeldNodes::find(const std::vector<double>& ofGhosts, const std::vector
 {
     nodes_.clear();
     for (int i = 0; i < int(isExcluded.size()); ++i)
-        if (!isExcluded[i] && ofGhosts[i] > ofElements[i]) nodes_.push_back(i);
+        if (!isExcluded[i] && ofGhosts[i] > std::max(ofElements[i], 0.0)) nodes_.push_back(i);
 }
 
 int GhostHeldNodes::position(int node) const
@@ -33,6 +33,7 @@ void GhostHeldNodes::factor(const Entries& entries, int nValues)
     matrix.setFromTriplets(entries.begin(), entries.end());
     matrix.diagonal() *= 1 + leastShift;
     matrix_.compute(matrix);
+    if (matrix_.info() != Eigen::Success) nodes_.clear();   // each by its own diagonal then
     values_.resize(n, nValues);
 }
 

@@ -26,7 +26,7 @@ public:
     /// In nodes(); -1: none of them.
     int position(int node) const;
 
-    /// Factors the sum of the entries, symmetric. nValues: number of values a node in values().
+    /// Factors the sum of the entries, symmetric; leaves no nodes where that fails. nValues: number of values a node in values().
     void factor(const Entries& entries, int nValues);
 
     /// A row a node, to be set before solve(), which replaces it by the solution.

@@ -87,7 +87,7 @@ void ScaledFlowSystem::setDiagonals()
             ghost[g.node[j]] += g.velocityFactor*g.jumpVelocity[j]*g.jumpVelocity[j];
             ghostPressure[g.node[j]] += g.pressureFactor*g.jumpPressure[j]*g.jumpPressure[j];
         }
-    velocity_.set(*system_, ghost);
+    if (!choice_.usesCycles()) velocity_.set(*system_, ghost);
     heldPressure_.set(*system_, ghostPressure);
     constexpr double ofDiagonal = 2.0/(D + 2);  // diagonal of a consistent mass matrix over its row's sum: only smooth pressures see the sum
     for (int i = 0; i < mesh_.nOwned; ++i)

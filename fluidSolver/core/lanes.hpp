@@ -46,6 +46,9 @@ inline Real squareRoot(const Real& v)
     else return gather<Real>([&](int l) { return std::sqrt(v[l]); });
 }
 
+/// The type of an argument that does not say which Real a template has: an integer literal would.
+template<class Real> struct AsGiven { using Type = Real; };
+
 /// Of every lane. For the larger, smaller and chosen of two, both are computed: `condition ? a : b` does that for vectors.
 template<class Real> inline Real absolute(const Real& v) { return v < 0 ? -v : v; }
 template<class Real> inline Real larger(const Real& a, const Real& b) { return a > b ? a : b; }

@@ -12,7 +12,7 @@ namespace flotsam
 /// Varying: two fluids. Carried and varying ones are what ElementData calls varying.
 enum class ElementKind { Plain, Carried, Varying, Alone };
 
-constexpr int nLaneKinds = 3;
+constexpr int nLaneKinds = int(ElementKind::Alone);
 
 template<int D>
 inline ElementKind kindOf(int e, const SimplexMesh& mesh, const FlowStepData& step, const NumericsControls& controls, const NodalData& nodal)

@@ -15,7 +15,7 @@ namespace flotsam
 
 /// Mean over the step of the mass that flows between two nodes of an element [kg/s per thickness]: what flows has the density of its share of liquid.
 template<class Real = double>
-inline Real massFlux(const Real& liquidFlux, const Real& totalFlux, const FluidProperties& fluid, const NumericsControls& controls)
+inline Real massFlux(const typename AsGiven<Real>::Type& liquidFlux, const typename AsGiven<Real>::Type& totalFlux, const FluidProperties& fluid, const NumericsControls& controls)
 {
     // fluxes may be as small as 1e-310: the quotient only where it is below 1
     const Real liquid = absolute<Real>(liquidFlux), total = absolute<Real>(totalFlux), one = Real{} + 1;

@@ -119,11 +119,13 @@ VelocityCondition slip(const ConditionInput&) { return {BoundaryPatch::Velocity:
 VelocityCondition open(const ConditionInput&) { return {BoundaryPatch::Velocity::Open, {}}; }
 
 /// Normal inflow Q split over the nodes as `weight`; the P1 flux through the patch is exactly Q.
-void distributeFlow(const PatchNodes& patch, const Halo& halo, double flow, const std::vector<double>& weight, const std::string& name,
-    std::vector<double>& out)
+void distributeFlow(const PatchNodes& patch, const Halo& halo, double flow, const std::vector<double>& weight, const std::vector<double>& share,
+    const std::string& name, std::vector<double>& out)
 {
     const int dim = patch.mesh->dim;
-    const double outflow = halo.sum(patch.outflow(weight));
+    std::vector<double> counted(weight.size());
+    for (std::size_t i = 0; i < weight.size(); ++i) counted[i] = weight[i]*share[i];
+    const double outflow = halo.sum(patch.outflow(counted));
     const double area = halo.sum(patch.area());
     out.assign(weight.size()*dim, 0.0);
     if (flow == 0) return;
@@ -143,8 +145,8 @@ VelocityCondition flowRateVelocity(const ConditionInput& in)
         failIn(in.dict, "extrapolateProfile yes is not available: the velocity is uniform over the patch. Remove the entry.");
     std::vector<double> weight;
     for (double wall : in.wallNode) weight.push_back(1 - wall);
-    return fixedVelocity([f = timeFunction<scalar>(in.dict, "volumetricFlowRate"), n = in.nodes, &halo = in.halo, weight, name = in.patch.name()](
-        const BoundaryState& state, std::vector<double>& out) { distributeFlow(*n, halo, f->value(state.time), weight, name, out); });
+    return fixedVelocity([f = timeFunction<scalar>(in.dict, "volumetricFlowRate"), n = in.nodes, &halo = in.halo, weight, all = std::vector<double>(weight.size(), 1.0), name = in.patch.name()](
+        const BoundaryState& state, std::vector<double>& out) { distributeFlow(*n, halo, f->value(state.time), weight, all, name, out); });
 }
 
 VelocityCondition variableHeightVelocity(const ConditionInput& in)
@@ -156,9 +158,13 @@ VelocityCondition variableHeightVelocity(const ConditionInput& in)
     return fixedVelocity([f = timeFunction<scalar>(in.dict, "flowRate"), n = in.nodes, &halo = in.halo, wall = in.wallNode, name = in.patch.name()](
         const BoundaryState& state, std::vector<double>& out)
     {
-        std::vector<double> weight;
-        for (std::size_t i = 0; i < wall.size(); ++i) weight.push_back((1 - wall[i])*std::clamp(state.alpha[n->nodes[i]], 0.0, 1.0));
-        distributeFlow(*n, halo, f->value(state.time), weight, name, out);
+        std::vector<double> weight, liquid; // the surface's nodes let gas in as well: what counts is the liquid
+        for (std::size_t i = 0; i < wall.size(); ++i)
+        {
+            liquid.push_back(std::clamp(state.alpha[n->nodes[i]], 0.0, 1.0));
+            weight.push_back((1 - wall[i])*liquid.back());
+        }
+        distributeFlow(*n, halo, f->value(state.time), weight, liquid, name, out);
     });
 }
 

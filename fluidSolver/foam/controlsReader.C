@@ -60,7 +60,7 @@ const std::vector<ControlEntry>& controlsTable()
         {"restart", &N::restart, {2, 1000}, "Krylov vectors kept at most"},
         {"contactTolerance", &N::contactTolerance, {0, 1, true}, "relative change of the contact impulse that ends the repeats"},
         {"maxContactRepeats", &N::maxContactRepeats, {0, 1000}, "fluid-contact repeats of one step"},
-        {"contactTrial", &N::contactTrial, {0, 0.5}, "residual of a solve that is likely to be repeated, over what the new contact load changes; 0: the tolerances'"},
+        {"contactTrial", &N::contactTrial, {0, 0.5}, "residual of the solves that a new contact load is likely to follow, over what that changes; 0: the tolerances'"},
         {"demTimeStep", &N::demTimeStep, {0, 1}, "contact sub-step [s]; 0: from stiffness and masses"},
     };
     return table;
