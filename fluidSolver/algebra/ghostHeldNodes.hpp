@@ -21,6 +21,8 @@ public:
     /// Of nOwned nodes those for which the ghost faces add more to the diagonal than the elements, but for the excluded ones.
     void find(const std::vector<double>& ofGhosts, const std::vector<double>& ofElements, const std::vector<char>& isExcluded);
 
+    void clear() { nodes_.clear(); }
+
     const std::vector<int>& nodes() const { return nodes_; }    // owned, ascending
     bool isEmpty() const { return nodes_.empty(); }
     /// In nodes(); -1: none of them.

@@ -40,9 +40,11 @@ GhostHeldNodes::Entries HeldPressure::rowsOf(const FlowSystem& system) const
 
 void HeldPressure::set(const FlowSystem& system, const std::vector<double>& ghost)
 {
-    std::vector<char> isExcluded(nOwned_, 1);
+    held_.clear();
+    if (system.ghosts.empty()) return;
+    std::vector<char> isExcluded(nOwned_);
     std::vector<double> ofElements(nOwned_);
-    if (!system.ghosts.empty()) exclude(system, isExcluded);
+    exclude(system, isExcluded);
     for (int i = 0; i < nOwned_; ++i) ofElements[i] = system.schur[graph_.diagonal[i]];
     held_.find(ghost, ofElements, isExcluded);
     if (held_.isEmpty()) return;

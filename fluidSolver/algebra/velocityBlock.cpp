@@ -46,6 +46,8 @@ void VelocityBlock::setT(const FlowSystem& system, const std::vector<double>& gh
 /// As a matrix for each component: mean of the diagonal, ghost faces.
 void VelocityBlock::setHeldNodes(const FlowSystem& system, const std::vector<double>& ghost)
 {
+    held_.clear();
+    if (system.ghosts.empty()) return;
     std::vector<char> isExcluded(nOwned_);
     std::vector<double> ofElements(nOwned_);
     for (int i = 0; i < nOwned_; ++i)

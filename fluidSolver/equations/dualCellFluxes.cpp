@@ -231,7 +231,8 @@ void DualCellTransport::addModelFlux(const Arguments& in)
         }
         const int* nodes = &mesh_.elements[std::size_t(e)*n];
         const double* g = &mesh_.gradN[std::size_t(e)*n*dim];
-        double slope[dim] = {}, gradient[dim] = {}, width = 0;
+        double slope[dim] = {}, gradient[dim], width = 0;
+        reconstruction_.levelGradient<dim>(e, gradient);
         bool inBand = false;
         for (int a = 0; a < n; ++a)
         {
@@ -241,7 +242,6 @@ void DualCellTransport::addModelFlux(const Arguments& in)
             for (int d = 0; d < dim; ++d)
             {
                 slope[d] += in.alpha[i]*g[a*dim + d];
-                gradient[d] += reconstruction_.level(i)*g[a*dim + d];
             }
         }
         const double length = std::sqrt(dot<dim>(gradient, gradient));

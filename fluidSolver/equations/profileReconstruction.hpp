@@ -78,15 +78,13 @@ public:
         const std::vector<double>& width);
 
     /// `elements`: all local elements in which alpha varies; `nodes`: owned and first-ring nodes of them. Fills kind() and profile() of
-    /// `nodes` and level() of all nodes of elements with a node in the band. Solid elements of `cover` (may be null) are not read.
+    /// `nodes` and the level for levelGradient(). Solid elements of `cover` (may be null) are not read.
     void build(const std::vector<double>& alpha, const std::vector<int>& elements, const std::vector<int>& nodes,
         const Cover* cover);
 
     ProfileKind kind(int node) const { return kind_[node]; }
     const NodeProfile& profile(int node) const { return profile_[node]; }   ///< of a front, roof or film
-    /// width ln(alpha/(1-alpha)), clipped [m]: its gradient in an element has length 1 in the equilibrium profile.
-    double level(int node) const { return level_[node]; }
-    /// Gradient of the level in an element with a node in the band.
+    /// Gradient of the level, width ln(alpha/(1-alpha)), clipped [m], in an element with a node in the band: of length 1 in the equilibrium profile.
     template<int dim> void levelGradient(int element, double (&gradient)[dim]) const;
 
     long nFronts() const { return nFronts_; }

@@ -129,7 +129,7 @@ TEST_CASE("without contact one solve a step, and the DEM ends at the solved velo
     CHECK(run.records()[0].motion.velocity[0] > 0.1);
 }
 
-// the first solve of a step after one that contact repeated is a trial; where its contact holds the engine is asked again with the finished solve
+// as many solves of a step as contact repeated the last one are trials; where the contact of one holds the engine is asked again with the finished solve
 TEST_CASE("beside a bar whose contact is repeated, one that touches nothing ends at the solved velocity in every step")
 {
     Channel channel;
