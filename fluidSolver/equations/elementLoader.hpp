@@ -171,8 +171,10 @@ inline ElementRates<Real> addFineScale(const Real* fineScale, const Real& h, dou
 template<int D, class Real>
 inline void loadTauContinuity(const ElementRates<Real>& rates, const Real& h, const NumericsControls& controls, ElementData<D, Real>& data)
 {
-    data.tauCont = controls.tauContFactor
-        *tauContinuity<Real>(controls.tauContWithTimeStep, data.rho, squared<D>(data.advection), h, data.mu/data.rho, rates);
+    // beside the surface waves grow with less, elsewhere it only resists what P1 cannot do without divergence, the more the smaller the step (docs/numerics.md)
+    const double timeShare = data.isVarying ? 1 : controls.tauContBulk;
+    data.tauCont = controls.tauContFactor*(controls.tauContWithTimeStep ? rates.tauContinuity(data.rho, h, timeShare)
+        : steadyTauContinuity<Real>(data.rho, squared<D>(data.advection), h, data.mu/data.rho));
 }
 
 /// Fluid part, materials, what convects, tau: all that the terms of surfaces need. False for an element without a fluid part.
