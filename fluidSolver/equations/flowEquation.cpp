@@ -80,6 +80,7 @@ void FlowEquation::assemble(const FlowStepData& step)
     else system_.isActive.assign(mesh_.nNodes, 1);
     fixGasEdge();
     fixPressures();
+    findFilms();
     if (mesh_.dim == 2)
     {
         assembleElements<2>();

@@ -76,6 +76,7 @@ private:
     template<int D> void coupleToNeighbours(int i, double value);
     template<int D> void assembleWalls();
     template<int D> void assembleGhosts();
+    void findFilms();
     template<int D> void assembleFilms();
     template<int D> void addFilm(int a, int b, double conductance, const double* force);
     template<int D> void assembleOpenBoundaries();

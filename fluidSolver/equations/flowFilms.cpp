@@ -38,6 +38,14 @@ double stiffness(const SimplexMesh& mesh, const int* nodes, double area, int k, 
 
 } // namespace
 
+void FlowEquation::findFilms()
+{
+    nodal_.film.clear();
+    if (!step_.cover || step_.cover->filmNodes.empty()) return;
+    nodal_.film.resize(mesh_.nNodes);
+    for (const FilmNode& film : step_.cover->filmNodes) nodal_.film[film.node] = std::max(nodal_.film[film.node], film.share);
+}
+
 /// force: gravity of the element behind the face [N/m^3].
 template<int D>
 void FlowEquation::addFilm(int a, int b, double conductance, const double* force)
@@ -63,9 +71,8 @@ template<int D>
 void FlowEquation::assembleFilms()
 {
     films_.clear();
-    if (!step_.cover || step_.cover->filmNodes.empty()) return;
-    std::vector<double> share(mesh_.nNodes, 0.0);
-    for (const FilmNode& film : step_.cover->filmNodes) share[film.node] = std::max(share[film.node], film.share);
+    const std::vector<double>& share = nodal_.film;
+    if (share.empty()) return;
     const auto& g = fluid_.gravity;
     const double gravity = std::sqrt(g[0]*g[0] + g[1]*g[1] + g[2]*g[2]);
     for (const MeshPatch& patch : mesh_.patches)

@@ -81,9 +81,7 @@ double WallFilm::thickness(int i, const Solid& solid) const
 double WallFilm::share(int i, const Solid& solid, double distance) const
 {
     const WallNode* wall = wallNode(i, solid);
-    if (!wall || distance >= wall->height) return 0;
-    const double depth = -plainDistance(solid, pointOver(i, *wall, 1))/wall->height; // of what is one element over the node: no jump as an edge passes
-    return std::min(1.0, 1 - distance/wall->height)*std::clamp(2*depth, 0.0, 1.0);
+    return wall ? std::clamp(1 - distance/wall->height, 0.0, 1.0) : 0;
 }
 
 bool WallFilm::lift(int i, const Solid& solid, int nFaces, double* distances) const
