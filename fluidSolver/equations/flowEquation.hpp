@@ -78,6 +78,7 @@ private:
     template<int D> void assembleGhosts();
     void findFilms();
     template<int D> void assembleFilms();
+    template<int D> void addFilmFace(const MeshPatch& patch, std::size_t f);
     template<int D> void addFilm(int a, int b, double conductance, const double* force);
     template<int D> void assembleOpenBoundaries();
     template<int D> void assembleSlipEdges();

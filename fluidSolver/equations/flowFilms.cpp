@@ -18,7 +18,7 @@ namespace
 {
 
 constexpr double layerThickness = 0.25; // over the height of the elements on the wall
-constexpr double fewestSteps = 4;       // of T: without gravity
+constexpr double fewestSteps = 4;       // in T
 
 double difference(const SimplexMesh& mesh, int a, int b, int d)
 {
@@ -29,7 +29,7 @@ double difference(const SimplexMesh& mesh, int a, int b, int d)
 template<int D>
 double stiffness(const SimplexMesh& mesh, const int* nodes, double area, int k, int l)
 {
-    if (D == 2) return 1/area;
+    if constexpr (D == 2) return 1/area;
     double product = 0;
     const int opposite = nodes[3 - k - l];
     for (int d = 0; d < D; ++d) product += difference(mesh, nodes[k], opposite, d)*difference(mesh, nodes[l], opposite, d);
@@ -38,6 +38,7 @@ double stiffness(const SimplexMesh& mesh, const int* nodes, double area, int k, 
 
 } // namespace
 
+/// Nodes under bodies, before the elements are assembled.
 void FlowEquation::findFilms()
 {
     nodal_.film.clear();
@@ -46,7 +47,7 @@ void FlowEquation::findFilms()
     for (const FilmNode& film : step_.cover->filmNodes) nodal_.film[film.node] = std::max(nodal_.film[film.node], film.share);
 }
 
-/// force: gravity of the element behind the face [N/m^3].
+/// Between two nodes of a wall. force: gravity of the element behind the face [N/m^3].
 template<int D>
 void FlowEquation::addFilm(int a, int b, double conductance, const double* force)
 {
@@ -67,40 +68,35 @@ void FlowEquation::addFilm(int a, int b, double conductance, const double* force
     }
 }
 
+/// One face of a wall, the element behind it being e.
+template<int D>
+void FlowEquation::addFilmFace(const MeshPatch& patch, std::size_t f)
+{
+    const int* nodes = &patch.faceNodes[f*D];
+    const int e = patch.faceElement[f], *corners = &mesh_.elements[std::size_t(e)*(D + 1)];
+    if (std::none_of(corners, corners + D + 1, [&](int i) { return i < mesh_.nOwned; })) return;
+    double share = 0, rho = 0, v[3], area = 0;
+    for (int k = 0; k < D; ++k) { share += nodal_.film[nodes[k]]/D; rho += nodal_.rho[nodes[k]]/D; }
+    if (share == 0 || step_.cover->state[e] == ElementState::Solid) return;
+    outwardVector(mesh_, patch, f, v);
+    for (int d = 0; d < D; ++d) area += v[d]*v[d];
+    area = std::sqrt(area);
+    const double height = D*mesh_.volume[e]/area, g = std::hypot(fluid_.gravity[0], fluid_.gravity[1], fluid_.gravity[2]);
+    const double time = std::max(g > 0 ? std::sqrt(height/g) : 0, fewestSteps*step_.time.dt);
+    const double conductance = share*layerThickness*height*time/rho;
+    for (int k = 0; k < D; ++k)
+        for (int l = k + 1; l < D; ++l)
+            if (const double s = stiffness<D>(mesh_, nodes, area, k, l); s > 0)
+                addFilm<D>(nodes[k], nodes[l], conductance*s, &(*step_.elementForce)[std::size_t(e)*D]);
+}
+
 template<int D>
 void FlowEquation::assembleFilms()
 {
     films_.clear();
-    const std::vector<double>& share = nodal_.film;
-    if (share.empty()) return;
-    const auto& g = fluid_.gravity;
-    const double gravity = std::sqrt(g[0]*g[0] + g[1]*g[1] + g[2]*g[2]);
+    if (nodal_.film.empty()) return;
     for (const MeshPatch& patch : mesh_.patches)
-    {
-        if (patch.type != "wall") continue;
-        for (std::size_t f = 0; f < patch.faceElement.size(); ++f)
-        {
-            const int* nodes = &patch.faceNodes[f*D];
-            const int e = patch.faceElement[f];
-            double ofFace = 0, rho = 0;
-            bool isNeeded = false;
-            for (int k = 0; k < D; ++k) { ofFace += share[nodes[k]]/D; rho += nodal_.rho[nodes[k]]/D; }
-            if (ofFace == 0 || step_.cover->state[e] == ElementState::Solid) continue;
-            for (int a = 0; a <= D; ++a) isNeeded |= mesh_.elements[std::size_t(e)*(D + 1) + a] < mesh_.nOwned;
-            if (!isNeeded) continue;
-            double v[3], area = 0;
-            outwardVector(mesh_, patch, f, v);
-            for (int d = 0; d < D; ++d) area += v[d]*v[d];
-            area = std::sqrt(area);
-            const double height = D*mesh_.volume[e]/area;
-            const double time = std::max(gravity > 0 ? std::sqrt(height/gravity) : 0, fewestSteps*step_.time.dt);
-            const double conductance = ofFace*layerThickness*height*time/rho;
-            for (int k = 0; k < D; ++k)
-                for (int l = k + 1; l < D; ++l)
-                    if (const double s = stiffness<D>(mesh_, nodes, area, k, l); s > 0)
-                        addFilm<D>(nodes[k], nodes[l], conductance*s, &(*step_.elementForce)[std::size_t(e)*D]);
-        }
-    }
+        for (std::size_t f = 0; f < patch.faceElement.size() && patch.type == "wall"; ++f) addFilmFace<D>(patch, f);
 }
 
 template void FlowEquation::assembleFilms<2>();
