@@ -356,6 +356,8 @@ void FlowEquation::ghostFluxes(const std::vector<double>& x, std::vector<PairFlu
             for (int k = j + 1; k < n; ++k)
                 result.push_back({g.node[j], g.node[k], f*(g.jumpPressure[j] - g.jumpPressure[k])/n});
     }
+    for (const FilmPair& f : films_)
+        result.push_back({f.a, f.b, f.conductance*(x[std::size_t(f.a)*B + B - 1] - x[std::size_t(f.b)*B + B - 1] - f.hydrostatic)});
 }
 
 void FlowEquation::setFreeBodies(const std::vector<FreeBody>& bodies, double dt)
