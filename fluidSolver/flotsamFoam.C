@@ -153,13 +153,13 @@ void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
 
     FlowState start;
     start.time = runTime.value();
-    if (!output.readState(step))
+    if (!output.readState(step, fields))
     {
         fields.readStart(start);
         step.start(std::move(start), true);
     }
     runTime.setTime(step.fluid().state().time, runTime.timeIndex()); // OpenFOAM has it from the folder's name
-    WriteTimes writeTimes(runTime, output.firstStart(), step.fluid().state().dt);
+    WriteTimes writeTimes(runTime, output.firstStart(), output.lastStep());
     output.begin(step);
     mesh.primitiveMesh::clearAddressing();  // cells, edges and the like that only the start needed; the geometry must stay: fields of the fvMesh are slices of it
     installStopSignals();

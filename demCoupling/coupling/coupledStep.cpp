@@ -56,12 +56,12 @@ void CoupledStep::start(FlowState state, bool isSharp)
     loads_.assign(scene_.solids().size(), {Vec3::Zero(), Vec3::Zero()});
 }
 
-/// Of the scene's poses and offsets exactly: no further correction of volumes, no change of the phase field.
-void CoupledStep::restoreGeometry()
+/// Of the scene's poses and offsets exactly: no further correction of volumes. hasChanged: as Fluid::setGeometry().
+void CoupledStep::restoreGeometry(bool hasChanged)
 {
     if (scene_.isEmpty()) return;
     PhaseTimer t(timers_, Phase::Cut);
-    fluid_.setGeometry(&builder_->build(scene_.solids()), &scene_.solids(), false);
+    fluid_.setGeometry(&builder_->build(scene_.solids()), &scene_.solids(), hasChanged);
 }
 
 StepResult CoupledStep::step(double dt)
@@ -226,14 +226,12 @@ void CoupledStep::forgetUnwritten()
     forgetContact();
 }
 
-std::map<std::string, std::vector<double>> CoupledStep::save() const
+CoupledStep::Arrays CoupledStep::save() const
 {
-    std::map<std::string, std::vector<double>> arrays;
+    Arrays arrays;
     arrays["liquid"] = {fluid_.keptLiquid()};
-    arrays["massFluxes"] = fluid_.massFluxes().records();
     if (scene_.isEmpty()) return arrays;
     arrays["solids"] = scene_.save();
-    arrays["ghostFluxes"] = fluid_.ghostFluxes();
     std::vector<double> loads;
     for (const auto& l : loads_)
         for (const Vec3* v : {&l.force, &l.moment}) loads.insert(loads.end(), v->data(), v->data() + 3);
@@ -242,9 +240,16 @@ std::map<std::string, std::vector<double>> CoupledStep::save() const
     return arrays;
 }
 
-void CoupledStep::restore(FlowState state, const std::map<std::string, std::vector<double>>& arrays)
+CoupledStep::Arrays CoupledStep::saveOfProcess() const
 {
-    fluid_.start(std::move(state), false);
+    Arrays arrays{{"massFluxes", fluid_.massFluxes().records()}};
+    if (!scene_.isEmpty()) arrays["ghostFluxes"] = fluid_.ghostFluxes();
+    return arrays;
+}
+
+void CoupledStep::restore(FlowState state, const Arrays& arrays, Fields fields)
+{
+    fluid_.start(std::move(state), fields == Fields::Cells);
     auto array = [&](const char* name) -> const std::vector<double>&
     {
         const auto at = arrays.find(name);
@@ -252,17 +257,17 @@ void CoupledStep::restore(FlowState state, const std::map<std::string, std::vect
             + "'; it was written by a run without solids or bodies");
         return at->second;
     };
-    fluid_.setKeptLiquid(array("liquid").at(0));
-    fluid_.massFluxes().setRecords(array("massFluxes"));
+    if (fields != Fields::Cells) fluid_.setKeptLiquid(array("liquid").at(0));
+    if (fields == Fields::Exact) fluid_.massFluxes().setRecords(array("massFluxes"));
     if (scene_.isEmpty()) return;
     scene_.restore(array("solids"));
-    fluid_.setGhostFluxes(array("ghostFluxes"));
+    if (fields == Fields::Exact) fluid_.setGhostFluxes(array("ghostFluxes"));
     const std::vector<double>& loads = array("fluidLoads");
     loads_.assign(scene_.solids().size(), {Vec3::Zero(), Vec3::Zero()});
     for (std::size_t s = 0; s < loads_.size() && 6*s + 5 < loads.size(); ++s)
         for (int d = 0; d < 3; ++d) { loads_[s].force[d] = loads[6*s + d]; loads_[s].moment[d] = loads[6*s + 3 + d]; }
     if (coupling_) coupling_->restore(array("bodies"));
-    restoreGeometry();
+    restoreGeometry(fields == Fields::Cells);
     wet_ = fluid_.wetFractions();
 }
 

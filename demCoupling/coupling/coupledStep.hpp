@@ -55,13 +55,22 @@ public:
 
     /// What no checkpoint holds: after one is written the run goes on as a restart from it would.
     void forgetUnwritten();
-    /// Arrays for a checkpoint beside the FlowState. Collective.
-    std::map<std::string, std::vector<double>> save() const;
-    void restore(FlowState state, const std::map<std::string, std::vector<double>>& arrays);
+    using Arrays = std::map<std::string, std::vector<double>>;
+    /// Arrays for a checkpoint beside the FlowState, the same on every process. Collective.
+    Arrays save() const;
+    Arrays saveOfProcess() const;       ///< the others
+    /// What the state given to restore() is.
+    enum class Fields
+    {
+        Exact,  ///< all of what was stored; arrays: of save() and saveOfProcess()
+        Nodal,  ///< the last time level at the nodes; arrays: of save()
+        Cells   ///< that as read from cells, as for start()
+    };
+    void restore(FlowState state, const Arrays& arrays, Fields fields);
 
 private:
     void cut(bool hasChanged);
-    void restoreGeometry();
+    void restoreGeometry(bool hasChanged = false);
     double smallestCutElement() const;  ///< [m]; huge where nothing is cut
     SolveReport solveFlow(StepResult& result, double enough);
     void solveWithContact(StepResult& result);

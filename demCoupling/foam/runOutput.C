@@ -42,44 +42,75 @@ std::vector<std::string> structureNames(const BodiesInput& input)
 RunOutput::RunOutput(const Foam::Time& runTime, const SimplexMesh& mesh, const Halo& halo, const BodiesInput& bodies,
     const PhaseTimers& timers)
 :   runTime_(runTime), mesh_(mesh), halo_(halo), timers_(timers), members_(makeMembers(bodies)),
-    log_(timers, runTime.value(), runTime.endTime().value()), forces_(structureNames(bodies)),
+    files_(runTime, mesh, halo), log_(timers, runTime.value(), runTime.endTime().value()), forces_(structureNames(bodies)),
     nStructures_(int(bodies.structures.size())), firstStart_(runTime.value())
 {}
 
-Foam::fileName RunOutput::stateFile() const { return runTime_.timePath()/"flotsamState.h5"; }
-
-/// flotsamFoam wrote this time, but on other processes: reconstructPar and decomposePar leave the state behind.
+/// flotsamFoam wrote this time, but its state was left behind.
 void RunOutput::warnAnew() const
 {
-    Foam::Info<< "Warning: time " << runTime_.timeName() << " has fields of flotsamFoam, but no flotsamState.h5: the run does not continue, it starts anew from"
-        << " these fields" << (members_.size() > std::size_t(nStructures_) ? ", with the bodies at their places in constant/bodies" : "")
-        << ".\n    A run continues on the number of processes that wrote the state (processor*/" << runTime_.timeName() << ").\n" << Foam::endl;
+    Foam::Info<< "Warning: time " << runTime_.timeName() << " has fields of flotsamFoam, but no flotsamState.h5, nor one in its folder 'uniform': the run"
+        << " does not continue, it starts anew from these fields" << (members_.size() > std::size_t(nStructures_) ? ", with the bodies at their places in constant/bodies" : "")
+        << ".\n    To continue, copy that file of the time it was written at to " << runTime_.timeName() << "/uniform.\n" << Foam::endl;
 }
 
-bool RunOutput::readState(CoupledStep& step)
+bool RunOutput::readState(CoupledStep& step, const FoamFields& fields)
 {
-    const bool isHere = Foam::isFile(stateFile());
-    if (!halo_.any(isHere))
+    switch (files_.find())
     {
-        if (halo_.any(Foam::isFile(runTime_.timePath()/"pointU"))) warnAnew();
-        return false;
+        case StateFiles::Found::Nothing:
+            if (halo_.any(Foam::isFile(runTime_.timePath()/"pointU"))) warnAnew();
+            return false;
+        case StateFiles::Found::Foreign:
+            throw std::runtime_error("restart: flotsamState.h5 of time " + runTime_.timeName() + " was written by other processes, and uniform/flotsamState.h5,"
+                " which any number of them can continue from, is missing there. Continue on the processes that wrote it, put that file back"
+                " (from the same time of processor0 or of the whole case), or remove all flotsamState.h5 of this time to start anew from its fields");
+        case StateFiles::Found::Own: continueOwn(step, fields); break;
+        case StateFiles::Found::Shared: continueShared(step, fields); break;
     }
-    if (halo_.any(!isHere))
-        throw std::runtime_error("restart: flotsamState.h5 is missing on some ranks at time " + runTime_.timeName()
-            + "; continue on the number of ranks that wrote it");
-    RunState state = readCheckpoint(stateFile(), std::size_t(mesh_.nNodes));
+    return true;
+}
+
+void RunOutput::continueOwn(CoupledStep& step, const FoamFields& fields)
+{
+    RunState state = files_.readOwn();
+    takeSums(state);
+    if (!fields.fit(state.flow))
+        Foam::Info<< "Warning: the volume fields of time " << runTime_.timeName() << " were changed since flotsamFoam wrote them. The changes do not count: the run"
+            << " continues its stored state.\n    To have them count, remove " << runTime_.timeName() << "/flotsamState.h5 (in parallel of every processor*).\n" << Foam::endl;
+    step.restore(std::move(state.flow), state.arrays, CoupledStep::Fields::Exact);
+    Foam::Info<< "continuing the stored state of time " << runTime_.timeName() << Foam::endl;
+}
+
+/// Solids, contact and sums as stored, the fluid from the written fields.
+void RunOutput::continueShared(CoupledStep& step, const FoamFields& fields)
+{
+    RunState state = files_.readShared();
+    takeSums(state);
+    FlowState start;
+    const bool isNodal = fields.readNodes(start);
+    if (!isNodal) fields.readStart(start);
+    start.time = state.flow.time;
+    start.step = state.flow.step;
+    step.restore(std::move(start), state.arrays, isNodal ? CoupledStep::Fields::Nodal : CoupledStep::Fields::Cells);
+    if (!isNodal) mass_.initial += step.fluid().liquidVolume() - mass_.final; // what reading the cells changes is no error of the run
+    Foam::Info<< "continuing from time " << runTime_.timeName() << " on other processes than those that wrote it: bodies, contact and sums exactly; velocity, pressure and "
+        << "phase from " << (isNodal ? "the point fields, as accurate as written (writePrecision)" : "the volume fields, as there are no point fields to them: less accurate")
+        << "; the first step is of first order in time" << Foam::endl;
+}
+
+void RunOutput::takeSums(RunState& state)
+{
     // a folder that was given another name is of that time
     if (Foam::Time::timeName(state.flow.time) != runTime_.timeName()) state.flow.time = runTime_.value();
-    mass_ = {state.scalars["initialLiquid"], state.scalars["inflow"], state.scalars["outflow"], 0};
+    mass_ = {state.scalars["initialLiquid"], state.scalars["inflow"], state.scalars["outflow"], state.scalars["liquid"]};
     steps_ = firstStep_ = long(state.scalars["steps"]);
     redistributed_ = state.scalars["redistributed"];
     timeStep_ = state.scalars["timeStep"];
+    lastStep_ = state.flow.dt;
     firstStart_ = state.scalars["firstStart"];
     largestOverlap_ = state.scalars["largestOverlap"];
     forces_.restore(state.arrays["forces"]);
-    step.restore(std::move(state.flow), state.arrays);
-    Foam::Info<< "continuing the stored state of time " << runTime_.timeName() << Foam::endl;
-    return true;
 }
 
 void RunOutput::begin(const CoupledStep& step)
@@ -149,11 +180,15 @@ void RunOutput::writeState(const CoupledStep& step, double timeStep)
     RunState state;
     state.flow = step.fluid().state();
     state.arrays = step.save();
+    const std::map<std::string, std::vector<double>> ofProcess = step.saveOfProcess();
+    std::vector<std::string> names;
+    for (const auto& array : ofProcess) names.push_back(array.first);
+    state.arrays.insert(ofProcess.begin(), ofProcess.end());
     state.arrays["forces"] = forces_.values();
-    state.scalars = {{"initialLiquid", mass_.initial}, {"inflow", mass_.inflow}, {"outflow", mass_.outflow},
+    state.scalars = {{"initialLiquid", mass_.initial}, {"inflow", mass_.inflow}, {"outflow", mass_.outflow}, {"liquid", mass_.final},
         {"steps", double(steps_)}, {"redistributed", redistributed_}, {"timeStep", timeStep}, {"firstStart", firstStart_},
         {"largestOverlap", largestOverlap_}};
-    writeCheckpoint(stateFile(), state);
+    files_.write(std::move(state), names);
     if (!history_) return;
     history_->flush();
     if (!members_.empty()) history_->writeSurface(runTime_.value(), step.records());
