@@ -52,6 +52,11 @@ refused openStl 'mkdir -p constant/triSurface
     open.stl
 refused twoShort 'sed -i "s/size (0.02 0.02 0.05)/size (0.02 0.02 0.03)/" constant/bodies' bar 'front to back'
 
+rm -rf pen && cp -r good pen
+(cd pen && sed -i "s/^maxBodyCo/maxBodyCO/" system/controlDict && sed -i 's/^flotsam/flotsm/' system/fvSolution && quietly flotsamFoam -dry-run \
+    && grep -q "entry 'maxBodyCO'. Did you mean: maxBodyCo" log.flotsamFoam && grep -q "entry 'flotsm'. Did you mean: flotsam" log.flotsamFoam) || fail "slips of the pen are not mentioned"
+grep -q 'Did you mean' good/log.flotsamFoam && fail "a warning in a good case"
+
 rm -rf beside && cp -r good beside
 echo 'structures { pier { shape { type cylinder; end1 (5 0 0); end2 (5 0 0.05); radius 0.01; } } }' >> beside/constant/bodies
 (cd beside && quietly flotsamFoam -dry-run && grep -q 'structure pier lies outside of the mesh' log.flotsamFoam) || fail "a structure beside the mesh is not mentioned"
