@@ -29,16 +29,22 @@ constexpr double growthLimit = 1.2;     // of the time step from step to step
 constexpr double retryFactor = 0.5;     // of the time step after a rejected step
 constexpr int maxRetries = 8;
 
+/// Courant numbers of a time step of 1 s.
+CourantNumbers courantRates(const CoupledStep& step)
+{
+    const CourantRates flow = step.fluid().courantRates();
+    return {flow.mean, flow.largest, step.bodyCourantRate()};
+}
+
 /// Next time step and the word for what limits it.
-std::pair<double, std::string> nextTimeStep(const CoupledStep& step, const TimeControls& time, double last)
+std::pair<double, std::string> nextTimeStep(const CourantNumbers& rates, const TimeControls& time, double last)
 {
     double dt = growthLimit*last;
     std::string limit = "growth";
     auto cap = [&](double value, const char* word) { if (value < dt) { dt = value; limit = word; } };
     if (!time.adjustTimeStep) return {time.deltaT, "fixed"};
-    const double flow = step.fluid().courantRate(), body = step.bodyCourantRate();
-    if (flow > 0) cap(time.maxCo/flow, "flow");
-    if (body > 0) cap(time.maxBodyCo/body, "body");
+    if (rates.largest > 0) cap(time.maxCo/rates.largest, "flow");
+    if (rates.bodies > 0) cap(time.maxBodyCo/rates.bodies, "body");
     cap(time.maxDeltaT, "cap");
     return {dt, limit};
 }
@@ -167,7 +173,8 @@ void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     double dt = output.timeStep() > 0 ? output.timeStep() : std::min(runTime.deltaTValue(), controls.time.maxDeltaT)/growthLimit;
     while (runTime.run())
     {
-        auto [wanted, limit] = nextTimeStep(step, controls.time, dt);
+        const CourantNumbers rates = courantRates(step);
+        auto [wanted, limit] = nextTimeStep(rates, controls.time, dt);
         if (wanted < controls.time.minDeltaT)
             throw std::runtime_error("the flow limits the time step to " + std::to_string(wanted) + " s at t = "
                 + std::to_string(runTime.value()) + " s, below minDeltaT of system/controlDict: "
@@ -182,7 +189,7 @@ void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         writeTimes.advance(used);
         step.fluid().state().time = runTime.value(); // OpenFOAM's clock, to the last digit
 
-        output.record(step, result, limit);
+        output.record(step, result, limit, rates*used);
         const bool isStopping = halo.any(stopRequested());
         const bool writeNow = halo.any(takeWriteRequest());
         if (fields.isNeeded() || isStopping || writeNow)

@@ -135,7 +135,7 @@ std::vector<std::pair<std::string, double>> RunOutput::scalars(double dt) const
         {"massError", massError()}, {"redistributed", redistributed_}, {"largestOverlap", largestOverlap_}};
 }
 
-void RunOutput::record(const CoupledStep& step, const StepResult& result, const std::string& limit)
+void RunOutput::record(const CoupledStep& step, const StepResult& result, const std::string& limit, const CourantNumbers& courant)
 {
     ++steps_;
     mass_.inflow += mesh_.thickness*result.transport.inflow;
@@ -165,6 +165,7 @@ void RunOutput::record(const CoupledStep& step, const StepResult& result, const 
     line.contactRepeats = result.solves - 1;
     line.massError = massError();
     line.bodiesInContact = step.bodiesInContact();
+    line.courant = courant;
     const std::string text = log_.stepLine(line);
     Foam::Info<< text.c_str() << Foam::flush;
 }

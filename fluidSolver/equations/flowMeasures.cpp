@@ -23,10 +23,10 @@ double squaredSpeed(const SimplexMesh& mesh, const FlowState& state, int node)
 
 } // namespace
 
-double courantRate(const SimplexMesh& mesh, const Halo& halo, const Cover* cover, const FlowState& state)
+CourantRates courantRates(const SimplexMesh& mesh, const Halo& halo, const Cover* cover, const FlowState& state)
 {
     const int dim = mesh.dim, n = dim + 1;
-    double largest = 0;
+    double largest = 0, sums[2] = {0, 0}; // of volume times rate, of volume
     for (int e = 0; e < mesh.nInnerElements; ++e)
     {
         if (cover && cover->state[e] == ElementState::Solid) continue;
@@ -35,9 +35,15 @@ double courantRate(const SimplexMesh& mesh, const Halo& halo, const Cover* cover
         for (int a = 0; a < n; ++a)
             for (int d = 0; d < dim; ++d) u[d] += state.u[std::size_t(mesh.elements[std::size_t(e)*n + a])*dim + d]*(1.0/n);
         for (int d = 0; d < dim; ++d) speed += u[d]*u[d];
-        largest = std::max(largest, std::sqrt(speed)/mesh.h[e]*(alpha < gasOnly ? gasShare : 1));
+        const double rate = std::sqrt(speed)/mesh.h[e];
+        largest = std::max(largest, rate*(alpha < gasOnly ? gasShare : 1));
+        if (!mesh.isOwnedElement[e]) continue;
+        const double volume = fluidVolume(mesh, cover, e);
+        sums[0] += volume*rate;
+        sums[1] += volume;
     }
-    return halo.max(largest);
+    halo.sum(sums, 2);
+    return {sums[1] > 0 ? sums[0]/sums[1] : 0, halo.max(largest)};
 }
 
 double longestWay(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& width, const FlowState& state)
