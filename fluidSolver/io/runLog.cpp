@@ -212,9 +212,9 @@ std::string RunLog::stepLine(const StepReport& r)
     std::string text;
     if (lines_++ % linesPerHeading == 0)
     {
-        text += "    step     time [s]    dt [s]  limit   iter rep  mass err touch | Co mean     max    body |flow phas  cut  dem  out  rest %| s/step    left\n";
+        text += "    step     time [s]    dt [s]  limit   iter rep  mass err touch |  Co mean      max     body |flow phas  cut  dem  out  rest %| s/step    left\n";
     }
-    text += format("%8ld %12.6g %9.3g  %-7s %4d %3d %9.1e %5d | %7.3g %7.3g %7.3g |%4d %4d %4d %4d %4d %4d  |%7.3g %7s\n", r.step, r.time, r.dt,
+    text += format("%8ld %12.6g %9.3g  %-7s %4d %3d %9.1e %5d |  %8.3g %8.3g %8.3g |%4d %4d %4d %4d %4d %4d  |%7.3g %7s\n", r.step, r.time, r.dt,
         r.limit.c_str(), r.linearIterations, r.contactRepeats, r.massError, r.bodiesInContact, r.courant.mean, r.courant.largest, r.courant.bodies,
         share({Phase::FlowAssembly, Phase::FlowSolve}), share({Phase::PhaseField}), share({Phase::Cut}),
         share({Phase::Dem, Phase::Exchange}), share({Phase::Output}), share({Phase::Other}), total,
