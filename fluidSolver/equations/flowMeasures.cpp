@@ -27,9 +27,9 @@ CourantRates courantRates(const SimplexMesh& mesh, const Halo& halo, const Cover
 {
     const int dim = mesh.dim, n = dim + 1;
     double largest = 0, sums[2] = {0, 0}; // of volume times rate, of volume
-    for (int e = 0; e < mesh.nInnerElements; ++e)
+    for (int e = 0; e < mesh.nElements; ++e)
     {
-        if (cover && cover->state[e] == ElementState::Solid) continue;
+        if (!mesh.isOwnedElement[e] || (cover && cover->state[e] == ElementState::Solid)) continue;
         double u[3] = {0, 0, 0}, speed = 0, alpha = 0;
         for (int a = 0; a < n; ++a) alpha = std::max(alpha, state.alpha[mesh.elements[std::size_t(e)*n + a]]);
         for (int a = 0; a < n; ++a)
@@ -37,7 +37,6 @@ CourantRates courantRates(const SimplexMesh& mesh, const Halo& halo, const Cover
         for (int d = 0; d < dim; ++d) speed += u[d]*u[d];
         const double rate = std::sqrt(speed)/mesh.h[e];
         largest = std::max(largest, rate*(alpha < gasOnly ? gasShare : 1));
-        if (!mesh.isOwnedElement[e]) continue;
         const double volume = fluidVolume(mesh, cover, e);
         sums[0] += volume*rate;
         sums[1] += volume;
