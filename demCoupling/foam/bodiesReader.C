@@ -3,8 +3,8 @@
 #include "demCoupling/foam/bodyGroup.H"
 #include "demCoupling/foam/contactReader.H"
 #include "demCoupling/foam/meshWalls.H"
+#include "demCoupling/foam/structureChecks.H"
 #include "foam/dictionaryChecks.H"
-#include "geometry/primitives.hpp"
 
 #include "IOdictionary.H"
 #include "OSspecific.H"
@@ -171,19 +171,6 @@ SceneFrame makeFrame(const Foam::polyMesh& mesh, const SimplexMesh& simplexMesh,
     return frame;
 }
 
-/// A fixed structure beside the mesh does nothing: most likely a wrong place, axis or scale.
-void warnOutside(const BodiesInput& input)
-{
-    for (const StructureDefinition& s : input.structures)
-    {
-        if (s.motion) continue;
-        const auto [lower, upper] = PlacedShape(s.solid.shape, s.solid.pose.orientation, s.solid.pose.position).bounds();
-        if ((lower.array() < input.box[1].array()).all() && (upper.array() > input.box[0].array()).all()) continue;
-        Foam::Info<< "Warning: structure " << s.solid.name.c_str() << " lies outside of the mesh, it does nothing: from "
-            << Foam::vector(lower[0], lower[1], lower[2]) << " to " << Foam::vector(upper[0], upper[1], upper[2]) << Foam::nl;
-    }
-}
-
 } // namespace
 
 BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh, const SimplexMesh& simplexMesh, const Halo& halo, const Vec3& gravity)
@@ -198,7 +185,7 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
     frame.materials = input.materials;
 
     readStructures(dict, frame, input);
-    warnOutside(input);
+    reportStructures(input, frame);
     std::vector<BodyGroup> groups = readGroups(dict, frame);
     if (groups.empty())
     {

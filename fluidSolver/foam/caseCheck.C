@@ -76,6 +76,17 @@ void printCost(const MeshCounts& counts, const SimplexMesh& mesh, const SceneCou
     line("time per step", text("about ", std::round(seconds*1000)/1000, " s (estimate for one core per rank)"));
 }
 
+/// What is no error, but seldom meant; empty: nothing.
+std::string gravityWarning(const FluidProperties& fluid, const SimplexMesh& mesh)
+{
+    const auto& g = fluid.gravity;
+    const double all = std::hypot(g[0], g[1], g[2]), across = mesh.dim == 2 ? std::abs(g[mesh.axes[2]]) : 0;
+    if (all == 0) return fluid.isTwoPhase ? "constant/g is (0 0 0): nothing keeps the lighter fluid above" : "";
+    if (across > 1e-6*all)
+        return text("gravity acts along ", "xyz"[mesh.axes[2]], ", across this 2D mesh: that part does nothing. Give constant/g in the plane of the mesh");
+    return "";
+}
+
 } // namespace
 
 void printCaseCheck(const CaseControls& controls, const MeshAdapter& adapter, const Halo& halo, const std::vector<BoundaryPatch>& boundary,
@@ -89,6 +100,8 @@ void printCaseCheck(const CaseControls& controls, const MeshAdapter& adapter, co
     line("fluids", fluidLine(controls));
     const auto& g = controls.fluid.gravity;
     line("gravity", text("(", g[0], " ", g[1], " ", g[2], ") m/s^2"));
+    const std::string gravity = gravityWarning(controls.fluid, mesh);
+    if (!gravity.empty()) line("warning", gravity);
     line("structures", structuresLine(scene));
     line("bodies", bodiesLine(scene));
     line("time step", timeLine(controls.time));
