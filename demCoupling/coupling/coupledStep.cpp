@@ -35,7 +35,9 @@ CoupledStep::CoupledStep(const SimplexMesh& mesh, const Halo& halo, const FluidP
     // 2D: the last bit of a section depends on the pose it is taken in, which must not be that in which a run goes on
     for (const Solid& solid : scene_.solids())
         if (solid.kind == Solid::Kind::Free) builder_->exactVolume(solid);
-    if (dem) coupling_ = std::make_unique<BodyCoupling>(*dem, couplingControls(fluid, controls), halo.comm());
+    if (!dem) return;
+    coupling_ = std::make_unique<BodyCoupling>(*dem, couplingControls(fluid, controls), halo.comm());
+    exit_ = std::make_unique<MeshExit>(mesh, halo, dem->bodies, Vec3(fluid.gravity[0], fluid.gravity[1], fluid.gravity[2]));
 }
 
 void CoupledStep::cut(bool hasChanged)
@@ -108,10 +110,26 @@ StepResult CoupledStep::step(double dt)
     {
         const std::vector<Motion> motions = fluid_.solidMotions();
         coupling_->accept({motions.begin() + scene_.nStructures(), motions.end()});
+        takeOutLeavers();
     }
     wet_ = fluid_.wetFractions();
     result.isAccepted = true;
     return result;
+}
+
+/// Bodies that have left the mesh: what cuts no element may have.
+void CoupledStep::takeOutLeavers()
+{
+    const Cover& cover = builder_->cover();
+    std::vector<char> mayBe(coupling_->nBodies(), 0);
+    for (int b = 0; b < coupling_->nBodies(); ++b)
+    {
+        const int s = scene_.nStructures() + b;
+        mayBe[b] = !coupling_->isHeld(b) && cover.solidVolume[s] == 0 && cover.solidArea[s] == 0;
+    }
+    std::vector<char> leavers = exit_->findOutside(coupling_->states(), mayBe);
+    for (int b = 0; b < coupling_->nBodies(); ++b) leavers[b] = leavers[b] || (!coupling_->isHeld(b) && coupling_->isFarOff(b));
+    if (std::find(leavers.begin(), leavers.end(), 1) != leavers.end()) coupling_->takeOut(leavers);
 }
 
 /// One solve with the present contact load and what it does to the solids. enough: see FlowLinearSolver::solve().
@@ -216,6 +234,7 @@ std::vector<BodyRecord> CoupledStep::records() const
         r.contactForce = coupling_->contactLoads()[body].force;
         r.contactMoment = coupling_->contactLoads()[body].moment;
         r.contacts = coupling_->contactCounts()[body];
+        r.hasLeft = coupling_->isGone(body);
     }
     return records;
 }

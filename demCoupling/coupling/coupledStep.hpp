@@ -3,6 +3,7 @@
 /// tests drive the same object.
 #pragma once
 
+#include "demCoupling/coupling/meshExit.hpp"
 #include "demCoupling/coupling/scene.hpp"
 #include "equations/fluid.hpp"
 #include "geometry/coverBuilder.hpp"
@@ -75,6 +76,7 @@ private:
     SolveReport solveFlow(StepResult& result, double enough);
     void solveWithContact(StepResult& result);
     void forgetContact();
+    void takeOutLeavers();
 
     const SimplexMesh& mesh_;
     const Halo& halo_;
@@ -84,6 +86,7 @@ private:
     Scene scene_;
     std::unique_ptr<CoverBuilder> builder_; // null without solids
     std::unique_ptr<BodyCoupling> coupling_;
+    std::unique_ptr<MeshExit> exit_;
     std::vector<Fluid::SolidLoad> loads_;   // fluid loads of the last solve
     std::vector<double> wet_;
     double contactChange_ = 0;  // residual over the right-hand side that the first new contact load of the last step left; 0: there was none

@@ -115,6 +115,7 @@ void RunOutput::takeSums(RunState& state)
 
 void RunOutput::begin(const CoupledStep& step)
 {
+    for (const BodyRecord& record : step.records()) hasLeft_.push_back(record.hasLeft);
     mass_.final = step.fluid().liquidVolume();
     if (mass_.initial == 0) mass_.initial = mass_.final;
     if (halo_.rank() == 0)
@@ -168,6 +169,19 @@ void RunOutput::record(const CoupledStep& step, const StepResult& result, const 
     line.courant = courant;
     const std::string text = log_.stepLine(line);
     Foam::Info<< text.c_str() << Foam::flush;
+    reportLeavers(records);
+}
+
+void RunOutput::reportLeavers(const std::vector<BodyRecord>& records)
+{
+    hasLeft_.resize(records.size(), 0);
+    for (std::size_t s = 0; s < records.size(); ++s)
+    {
+        if (!records[s].hasLeft || hasLeft_[s]) continue;
+        hasLeft_[s] = 1;
+        const Vec3& x = records[s].pose.position;
+        Foam::Info<< "body " << members_[s].name.c_str() << " has left the mesh, its centre is at " << Foam::vector(x[0], x[1], x[2]) << ": taken out" << Foam::endl;
+    }
 }
 
 void RunOutput::countRejected(const std::string& reason, double dt)
@@ -195,10 +209,12 @@ void RunOutput::writeState(const CoupledStep& step, double timeStep)
     if (!members_.empty()) history_->writeSurface(runTime_.value(), step.records());
 }
 
-void RunOutput::end(const CoupledStep&)
+void RunOutput::end(const CoupledStep& step)
 {
     if (history_) history_->flush();
     RunSummary summary;
+    summary.bodies = step.scene().nBodies();
+    summary.bodiesLeft = step.coupling() ? step.coupling()->goneCount() : 0;
     summary.steps = steps_ - firstStep_;
     summary.repeatedSteps = rejected_;
     summary.nodes = mesh_.nGlobal;

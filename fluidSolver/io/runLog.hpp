@@ -114,6 +114,7 @@ struct RunSummary
     long steps = 0, repeatedSteps = 0;
     long long nodes = 0;                                    ///< of the whole mesh
     int ranks = 1;
+    int bodies = 0, bodiesLeft = 0;                         ///< bodiesLeft: that have left the mesh since the start
     std::vector<std::pair<std::string, long long>> anomalies; ///< counted: "clipped alpha", "rejected steps", ...
     MassBalance mass;
     double unbalancedVolume = 0;                            ///< swept in basins without a prescribed pressure beyond what these can give [m^3]
