@@ -133,11 +133,31 @@ int verticalAxis(const std::array<double, 3>& gravity)
     return axis;
 }
 
+/// Each would believe that it has the whole mesh.
+void checkProcesses()
+{
+    int size = 1;
+    MPI_Comm_size(MPI_COMM_WORLD, &size);
+    if (size > 1 && !Foam::Pstream::parRun())
+        throw std::runtime_error("mpirun has started " + std::to_string(size) + " processes of flotsamFoam without the option -parallel: decompose the case"
+            " (decomposePar) and run  mpirun -np " + std::to_string(size) + " flotsamFoam -parallel");
+}
+
+/// Of controlDict, which may be edited while the run goes on (runTimeModifiable), as OpenFOAM's solvers take it.
+void updateTimeControls(const Foam::Time& runTime, TimeControls& time)
+{
+    const TimeControls now = readTimeControls(runTime.controlDict());
+    if (now == time) return;
+    time = now;
+    Foam::Info<< "system/controlDict was changed: time step " << describe(time).c_str() << Foam::endl;
+}
+
 enum class Task { Run, Check, WeighCells };
 
 void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
 {
     PetscSession petsc(MPI_COMM_WORLD);
+    checkProcesses();
     const CaseControls controls = readCaseControls(runTime);
     const MeshAdapter adapter = makeSimplexMesh(mesh, MPI_COMM_WORLD, verticalAxis(controls.fluid.gravity));
     const Halo halo(adapter.mesh, MPI_COMM_WORLD);
@@ -170,12 +190,16 @@ void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     mesh.primitiveMesh::clearAddressing();  // cells, edges and the like that only the start needed; the geometry must stay: fields of the fvMesh are slices of it
     installStopSignals();
 
-    double dt = output.timeStep() > 0 ? output.timeStep() : std::min(runTime.deltaTValue(), controls.time.maxDeltaT)/growthLimit;
+    TimeControls time = controls.time;
+    if (!runTime.run())
+        Foam::Info<< "Nothing to do: the run is at " << runTime.timeName() << " s, endTime of system/controlDict is " << runTime.endTime().value() << " s" << Foam::endl;
+    double dt = output.timeStep() > 0 ? output.timeStep() : std::min(runTime.deltaTValue(), time.maxDeltaT)/growthLimit;
     while (runTime.run())
     {
+        updateTimeControls(runTime, time);
         const CourantNumbers rates = courantRates(step);
-        auto [wanted, limit] = nextTimeStep(rates, controls.time, dt);
-        if (wanted < controls.time.minDeltaT)
+        auto [wanted, limit] = nextTimeStep(rates, time, dt);
+        if (wanted < time.minDeltaT)
             throw std::runtime_error("the flow limits the time step to " + std::to_string(wanted) + " s at t = "
                 + std::to_string(runTime.value()) + " s, below minDeltaT of system/controlDict: "
                 + step.fluid().describeFastest() + ". The solution has become unstable there: look at the last written fields,"
@@ -183,7 +207,7 @@ void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         double used = writeTimes.setStep(wanted);
         if (used < 0.999*wanted) limit = "write";
         const double before = used;
-        const StepResult result = advance(step, controls.time, used, output);
+        const StepResult result = advance(step, time, used, output);
         if (used < before) limit = "retry";
         dt = limit == "write" ? wanted : used;
         writeTimes.advance(used);

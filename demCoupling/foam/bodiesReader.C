@@ -171,6 +171,18 @@ SceneFrame makeFrame(const Foam::polyMesh& mesh, const SimplexMesh& simplexMesh,
     return frame;
 }
 
+/// Without constant/bodies there are none: a file beside it that looks like one must not go unnoticed.
+void warnMisnamed(const Foam::Time& time)
+{
+    const Foam::fileName folder = time.globalPath()/time.constant();
+    if (!Foam::Pstream::master() || Foam::isFile(folder/"bodies")) return;
+    for (const Foam::fileName& file : Foam::readDir(folder, Foam::fileName::FILE))
+    {
+        const bool isLike = editDistance(file, "bodies") <= 2 || editDistance(file, "structures") <= 1 || file.find("bodies") != std::string::npos;
+        if (isLike) Foam::Info<< "Warning: constant/" << file.c_str() << " is not read: bodies and structures are described in constant/bodies" << Foam::nl;
+    }
+}
+
 } // namespace
 
 BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh, const SimplexMesh& simplexMesh, const Halo& halo, const Vec3& gravity)
@@ -213,6 +225,7 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
 
 BodiesInput readBodies(const Foam::polyMesh& mesh, const SimplexMesh& simplexMesh, const Halo& halo, const Vec3& gravity)
 {
+    warnMisnamed(mesh.time());
     const Foam::IOobject io("bodies", mesh.time().constant(), mesh.time(), Foam::IOobject::READ_IF_PRESENT, Foam::IOobject::NO_WRITE, false);
     return readBodies(Foam::IOdictionary(io), mesh, simplexMesh, halo, gravity);
 }

@@ -37,6 +37,30 @@ std::vector<std::string> structureNames(const BodiesInput& input)
     return names;
 }
 
+/// Names as numbers, one a line: a state has nothing but numbers.
+std::vector<double> codesOf(const std::vector<HistoryMember>& members)
+{
+    std::vector<double> codes;
+    for (const HistoryMember& m : members)
+    {
+        for (const char c : m.name) codes.push_back(static_cast<unsigned char>(c));
+        codes.push_back('\n');
+    }
+    return codes;
+}
+
+std::vector<std::string> namesFrom(const std::vector<double>& codes)
+{
+    std::vector<std::string> names(1);
+    for (const double c : codes)
+    {
+        if (c == '\n') names.emplace_back();
+        else names.back() += char(int(c));
+    }
+    names.pop_back();
+    return names;
+}
+
 } // namespace
 
 RunOutput::RunOutput(const Foam::Time& runTime, const SimplexMesh& mesh, const Halo& halo, const BodiesInput& bodies,
@@ -99,8 +123,25 @@ void RunOutput::continueShared(CoupledStep& step, const FoamFields& fields)
         << "; the first step is of first order in time" << Foam::endl;
 }
 
+/// Solids are stored by their numbers: another order would exchange them.
+void RunOutput::checkMembers(const RunState& state) const
+{
+    const auto stored = state.arrays.find("members");
+    if (stored == state.arrays.end() || stored->second == codesOf(members_)) return;
+    const std::vector<std::string> names = namesFrom(stored->second);
+    std::size_t first = 0;
+    while (first < names.size() && first < members_.size() && names[first] == members_[first].name) ++first;
+    const auto quoted = [](bool isThere, const std::string& name) { return isThere ? "'" + name + "'" : std::string("none"); };
+    throw std::runtime_error("restart: constant/bodies is not that of the stored state of time " + runTime_.timeName() + ", which has " + std::to_string(names.size())
+        + " structures and bodies; now there are " + std::to_string(members_.size()) + ". The first that differs was " + quoted(first < names.size(), first < names.size() ? names[first] : "")
+        + ", is " + quoted(first < members_.size(), first < members_.size() ? members_[first].name : "")
+        + ". Continue with those of the stored state; to start anew from the fields of this time, with the bodies at their places in constant/bodies, remove its"
+        " flotsamState.h5 and uniform/flotsamState.h5");
+}
+
 void RunOutput::takeSums(RunState& state)
 {
+    checkMembers(state);
     // a folder that was given another name is of that time
     if (Foam::Time::timeName(state.flow.time) != runTime_.timeName()) state.flow.time = runTime_.value();
     mass_ = {state.scalars["initialLiquid"], state.scalars["inflow"], state.scalars["outflow"], state.scalars["liquid"]};
@@ -200,6 +241,7 @@ void RunOutput::writeState(const CoupledStep& step, double timeStep)
     for (const auto& array : ofProcess) names.push_back(array.first);
     state.arrays.insert(ofProcess.begin(), ofProcess.end());
     state.arrays["forces"] = forces_.values();
+    state.arrays["members"] = codesOf(members_);
     state.scalars = {{"initialLiquid", mass_.initial}, {"inflow", mass_.inflow}, {"outflow", mass_.outflow}, {"liquid", mass_.final},
         {"steps", double(steps_)}, {"redistributed", redistributed_}, {"timeStep", timeStep}, {"firstStart", firstStart_},
         {"largestOverlap", largestOverlap_}};

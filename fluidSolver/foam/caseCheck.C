@@ -47,13 +47,6 @@ std::string fluidLine(const CaseControls& controls)
                         : text("one, rho ", f.rhoLiquid, " mu ", f.muLiquid, " (no phase field)");
 }
 
-std::string timeLine(const TimeControls& time)
-{
-    if (!time.adjustTimeStep) return text("fixed, ", time.deltaT, " s");
-    return text("adaptive, from ", time.deltaT, " s; maxCo ", time.maxCo, ", bodies ", time.maxBodyCo,
-        time.maxDeltaT < 1e29 ? text(", at most ", time.maxDeltaT, " s") : "");
-}
-
 std::string bodiesLine(const SceneCounts& scene)
 {
     if (scene.bodies == 0) return "none (DEM engine not opened)";
@@ -89,6 +82,13 @@ std::string gravityWarning(const FluidProperties& fluid, const SimplexMesh& mesh
 
 } // namespace
 
+std::string describe(const TimeControls& time)
+{
+    if (!time.adjustTimeStep) return text("fixed, ", time.deltaT, " s");
+    return text("adaptive, from ", time.deltaT, " s; maxCo ", time.maxCo, ", bodies ", time.maxBodyCo,
+        time.maxDeltaT < 1e29 ? text(", at most ", time.maxDeltaT, " s") : "");
+}
+
 void printCaseCheck(const CaseControls& controls, const MeshAdapter& adapter, const Halo& halo, const std::vector<BoundaryPatch>& boundary,
     const SceneCounts& scene, const CostModel& cost)
 {
@@ -104,7 +104,7 @@ void printCaseCheck(const CaseControls& controls, const MeshAdapter& adapter, co
     if (!gravity.empty()) line("warning", gravity);
     line("structures", structuresLine(scene));
     line("bodies", bodiesLine(scene));
-    line("time step", timeLine(controls.time));
+    line("time step", describe(controls.time));
     for (const auto& patch : boundary) line("patch", describe(patch));
     const bool hasLevel = std::any_of(boundary.begin(), boundary.end(), [](const BoundaryPatch& b) { return b.pressure != BoundaryPatch::Pressure::Natural; });
     if (!hasLevel) line("pressure level", text("none prescribed: in every basin mean in the gas (without gas: of all) pRefValue ", controls.fluid.pRefValue));
