@@ -167,11 +167,15 @@ void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     const Vec3 gravity(g[0], g[1], g[2]);
     const BodiesInput bodies = readBodies(mesh, adapter.mesh, halo, gravity);
     printCaseCheck(controls, adapter, halo, boundary, countScene(bodies));
-    if (task == Task::Check) writeNumerics(Foam::Info, controls.numerics);
+    PhaseTimers timers;
+    if (task == Task::Check)
+    {
+        RunOutput(runTime, adapter.mesh, halo, bodies, timers).checkStart();
+        writeNumerics(Foam::Info, controls.numerics);
+    }
     if (task == Task::WeighCells) weighCells(mesh, adapter, halo, bodies);
     if (task != Task::Run) return;
 
-    PhaseTimers timers;
     const DemSetup dem = makeDemSetup(bodies, controls.numerics.demTimeStep);
     CoupledStep step(adapter.mesh, halo, controls.fluid, controls.numerics, boundary, makeScene(bodies, gravity),
         bodies.bodies.empty() ? nullptr : &dem, timers);

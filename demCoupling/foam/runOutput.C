@@ -78,6 +78,23 @@ void RunOutput::warnAnew() const
         << ".\n    To continue, copy that file of the time it was written at to " << runTime_.timeName() << "/uniform.\n" << Foam::endl;
 }
 
+void RunOutput::failForeign() const
+{
+    throw std::runtime_error("restart: flotsamState.h5 of time " + runTime_.timeName() + " was written by other processes, and uniform/flotsamState.h5,"
+        " which any number of them can continue from, is missing there. Continue on the processes that wrote it, put that file back"
+        " (from the same time of processor0 or of the whole case), or remove all flotsamState.h5 of this time to start anew from its fields");
+}
+
+void RunOutput::checkStart() const
+{
+    const StateFiles::Found found = files_.find();
+    if (found == StateFiles::Found::Foreign) failForeign();
+    if (found == StateFiles::Found::Own) checkMembers(files_.readOwn());
+    if (found == StateFiles::Found::Shared) checkMembers(files_.readShared());
+    Foam::Info<< "Start at time " << runTime_.timeName() << ": " << (found == StateFiles::Found::Own ? "the stored state continues, exactly" : found == StateFiles::Found::Shared
+        ? "bodies and sums of the stored state continue, the fluid from the written fields" : "anew from the volume fields") << Foam::nl << Foam::endl;
+}
+
 bool RunOutput::readState(CoupledStep& step, const FoamFields& fields)
 {
     switch (files_.find())
@@ -85,10 +102,7 @@ bool RunOutput::readState(CoupledStep& step, const FoamFields& fields)
         case StateFiles::Found::Nothing:
             if (halo_.any(Foam::isFile(runTime_.timePath()/"pointU"))) warnAnew();
             return false;
-        case StateFiles::Found::Foreign:
-            throw std::runtime_error("restart: flotsamState.h5 of time " + runTime_.timeName() + " was written by other processes, and uniform/flotsamState.h5,"
-                " which any number of them can continue from, is missing there. Continue on the processes that wrote it, put that file back"
-                " (from the same time of processor0 or of the whole case), or remove all flotsamState.h5 of this time to start anew from its fields");
+        case StateFiles::Found::Foreign: failForeign();
         case StateFiles::Found::Own: continueOwn(step, fields); break;
         case StateFiles::Found::Shared: continueShared(step, fields); break;
     }

@@ -64,6 +64,9 @@ rm -rf other && cp -r good other
 fixedSteps other 0.001 0.002 2
 (cd other && quietly flotsamFoam && sed -i 's/^    bar$/    log/' constant/bodies) || exit
 setEntry other/system/controlDict endTime 0.004
+(cd other && sed 's/    log$/    bar/' constant/bodies > same && cp constant/bodies now && cp same constant/bodies && quietly flotsamFoam -dry-run && cp now constant/bodies) || exit
+grep -q 'Start at time 0.002: the stored state continues, exactly' other/log.flotsamFoam || fail "the dry run does not say what it starts from"
+(cd other && flotsamFoam -dry-run) > /dev/null 2>&1 && fail "the dry run accepts a state of other bodies"
 (cd other && flotsamFoam) > other.log 2>&1 && fail "a state of other bodies is accepted"
 grep -q "differs was 'bar', is 'log'" other.log || fail "a state of other bodies: no word"
 rm -rf misnamed && cp -r good misnamed && mv misnamed/constant/bodies misnamed/constant/bodiesDict
