@@ -19,6 +19,7 @@ Scene::Scene(std::vector<SceneStructure> structures, const std::vector<BodyDefin
         Solid solid;
         solid.name = body.name;
         solid.kind = Solid::Kind::Free;
+        solid.isLoose = true;
         solid.shape = body.shape;
         solid.pose = body.pose;
         solid.motion = body.motion;

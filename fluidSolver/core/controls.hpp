@@ -29,6 +29,7 @@ struct NumericsControls
     double tauFactor = 0.25;        ///< tau of SUPG and PSPG over Tezduyar's where inertia counts
     double tauContFactor = 1;       ///< multiplies tau_cont
     bool tauContWithTimeStep = true; ///< tau_cont = rho h^2/(12 T), T with the time step (twophase), else rho(nu + |a|h/2)
+    double tauContBulk = 0.1;       ///< share of the time step's rate 2/dt in that T in elements of one density, away from the liquid's surface
     bool viscousResidual = false;   ///< mu lap u in the residual of SUPG, PSPG and u'
     // embedded boundary
     bool nitsche = true;            ///< false: the paper's pure penalty

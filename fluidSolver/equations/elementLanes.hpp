@@ -19,6 +19,7 @@ inline ElementKind kindOf(int e, const SimplexMesh& mesh, const FlowStepData& st
 {
     if (step.cover && step.cover->state[e] != ElementState::Fluid) return ElementKind::Alone;
     const int* nodes = &mesh.elements[std::size_t(e)*(D + 1)];
+    if (!nodal.film.empty() && filmContinuity(nodes, D + 1, nodal.film) < 1) return ElementKind::Alone;
     bool isOne = nodal.fluid[nodes[0]] != NodalData::Mixed;
     for (int a = 1; a <= D; ++a) isOne &= nodal.fluid[nodes[a]] == nodal.fluid[nodes[0]];
     const bool isCarried = step.transport && step.transport->fluxes(e).total;

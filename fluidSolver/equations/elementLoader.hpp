@@ -7,6 +7,7 @@
 #include "equations/massFluxes.hpp"
 #include "equations/materials.hpp"
 #include "equations/stabilisation.hpp"
+#include "geometry/wallFilm.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -34,6 +35,7 @@ struct NodalData
     enum Fluid : char { Mixed, Liquid, Gas };
     std::vector<Fluid> fluid;                   ///< the one that was there at all three times
     std::vector<NodeInertia> own;               ///< with a transport
+    std::vector<double> film;                   ///< FilmNode::share; empty: no films
 };
 
 /// Ratio of densities within the three time levels of an element from which its residual, and its inertia where its mean density counts, are taken
@@ -171,8 +173,19 @@ inline ElementRates<Real> addFineScale(const Real* fineScale, const Real& h, dou
 template<int D, class Real>
 inline void loadTauContinuity(const ElementRates<Real>& rates, const Real& h, const NumericsControls& controls, ElementData<D, Real>& data)
 {
-    data.tauCont = controls.tauContFactor
-        *tauContinuity<Real>(controls.tauContWithTimeStep, data.rho, squared<D>(data.advection), h, data.mu/data.rho, rates);
+    // beside the surface waves grow with less, elsewhere it only resists what P1 cannot do without divergence, the more the smaller the step (docs/numerics.md)
+    const double timeShare = data.isVarying ? 1 : controls.tauContBulk;
+    data.tauCont = controls.tauContFactor*(controls.tauContWithTimeStep ? rates.tauContinuity(data.rho, h, timeShare)
+        : steadyTauContinuity<Real>(data.rho, squared<D>(data.advection), h, data.mu/data.rho));
+}
+
+/// Of the grad-div term, whose length in a film is the gap's: its conductance lets in what a body's motion displaces, the velocity's divergence there means nothing.
+inline double filmContinuity(const int* nodes, int n, const std::vector<double>& film)
+{
+    double share = 0;
+    for (int a = 0; a < n; ++a) share = std::max(share, film[nodes[a]]);
+    const double gap = std::max(filmThickness, 1 - share);
+    return gap*gap;
 }
 
 /// Fluid part, materials, what convects, tau: all that the terms of surfaces need. False for an element without a fluid part.
@@ -315,6 +328,7 @@ inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& 
         loadConvection<D, double>(fluxes, lastFluxShare(step), fluid, controls, data);
     }
     loadTauContinuity<D, double>(source.rates, mesh.h[e], controls, data);
+    if (!nodal.film.empty()) data.tauCont *= filmContinuity(&mesh.elements[std::size_t(e)*(D + 1)], D + 1, nodal.film);
     return true;
 }
 

@@ -80,12 +80,14 @@ void FlowEquation::assemble(const FlowStepData& step)
     else system_.isActive.assign(mesh_.nNodes, 1);
     fixGasEdge();
     fixPressures();
+    findFilms();
     if (mesh_.dim == 2)
     {
         assembleElements<2>();
         assembleOpenBoundaries<2>();
         assembleSlipEdges<2>();
         assembleGasEdge<2>();
+        assembleFilms<2>();
         assembleWalls<2>();
         keepSweptMass<2>();
         removeMassDefect<2>();
@@ -97,6 +99,7 @@ void FlowEquation::assemble(const FlowStepData& step)
         assembleOpenBoundaries<3>();
         assembleSlipEdges<3>();
         assembleGasEdge<3>();
+        assembleFilms<3>();
         assembleWalls<3>();
         keepSweptMass<3>();
         removeMassDefect<3>();

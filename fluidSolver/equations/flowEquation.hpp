@@ -51,7 +51,7 @@ public:
     /// must still hold t^n. The continuity rows then are those of x + u'.
     void fineScale(const std::vector<double>& x, std::vector<double>& result) const;
 
-    /// Volume fluxes of the pressure ghost terms between node pairs, for the conservative transport:
+    /// Volume fluxes of the pressure ghost terms and of films on walls between node pairs, for the conservative transport:
     /// row contributions r_i of face nodes as (r_i - r_j)/(dim+2).
     void ghostFluxes(const std::vector<double>& x, std::vector<PairFlux>& result) const;
 
@@ -62,6 +62,9 @@ public:
     const FlowSystem& system() const { return system_; }
 
 private:
+    /// Volume flux from node a to b: conductance (p_a - p_b - hydrostatic) [m^dim/s].
+    struct FilmPair { int a, b; double conductance, hydrostatic; };
+
     void startRow(int i);
     template<int D, class Real> void addElements(const int* e, const ElementData<D, Real>& data);
     template<int D> void assembleElements();
@@ -73,6 +76,10 @@ private:
     template<int D> void coupleToNeighbours(int i, double value);
     template<int D> void assembleWalls();
     template<int D> void assembleGhosts();
+    void findFilms();
+    template<int D> void assembleFilms();
+    template<int D> void addFilmFace(const MeshPatch& patch, std::size_t f);
+    template<int D> void addFilm(int a, int b, double conductance, const double* force);
     template<int D> void assembleOpenBoundaries();
     template<int D> void assembleSlipEdges();
     template<int D> void addSlipFace(const MeshPatch& faces, std::size_t f);
@@ -112,6 +119,7 @@ private:
     std::vector<char> isStarted_;               // owned nodes: see startRow()
     ViscousForce viscousForce_;
     std::vector<double> defect_;                // owned nodes: see massDefect()
+    std::vector<FilmPair> films_;
     std::vector<double> mass_, swept_;          // owned nodes: inertia of the fluid there; what moving surfaces take from it, a half [kg/s]
     std::vector<char> carriesMass_, isOpen_;    // nodes of varying elements; nodes on open patches
     std::vector<char> isPatchPressureFixed_;    // nNodes: by a patch

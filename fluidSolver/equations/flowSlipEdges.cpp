@@ -70,8 +70,7 @@ void FlowEquation::addSlipFace(const MeshPatch& faces, std::size_t f)
         first[corner[k]] = area*moments.first[k];
         for (int l = 0; l < D; ++l) second[corner[k]*N + corner[l]] = area*moments.second[k*D + l];
     }
-    WallCoefficients c = nitscheCoefficients(data, controls_.nitscheGamma, mesh_.h[e], step_.time.dt, 0);   // no volume passes: nothing flows in
-    c.isSlip = true;
+    WallCoefficients c = nitscheCoefficients(data, true, controls_.nitscheGamma, mesh_.h[e], step_.time.dt, 0);   // no volume passes: nothing flows in
     c.normal = edgeHold(data, c.normal, mesh_.h[e], step_.time.dt, outflow);
     const WallTerms<D> terms(c, normal, data.gradN);
     double m[B*B];
@@ -80,7 +79,7 @@ void FlowEquation::addSlipFace(const MeshPatch& faces, std::size_t f)
         if (nodes[a] >= mesh_.nOwned) continue;
         for (int b = 0; b < N; ++b)
         {
-            terms.block(a, b, first[a], first[b], second[a*N + b], m);
+            terms.block(a, b, first[a], first[b], second[a*N + b], second[a*N + b], m);
             system_.matrix.add<D>(graph_.slot(nodes[a], (std::size_t(e)*N + a)*N + b), m);
         }
     }

@@ -3,8 +3,9 @@
 ///
 /// n: out of the fluid. Jumps [u] = u - ubar, [w] = w - W with rigid ubar, W: P1 functions on the element. Nitsche:
 ///   - (sigma(u,p) n).[w] - q n.[u] + (2 mu eps(w) n).[u] + gamma mu/h [u].[w]
-///   + (0.1 rho h/dt + 0.1 rho |a|) ([u].n)([w].n) + rho max(0, -(a - ubar).n) [u].[w]
-/// (non-symmetric; Massing, Schott & Wall 2018, doi 10.1016/j.cma.2017.09.003, coefficients measured for this method).
+///   + (c rho h/dt + 0.1 rho |a|) ([u].n)([w].n) + rho max(0, -(a - ubar).n) [u].[w]
+/// (non-symmetric; Massing, Schott & Wall 2018, doi 10.1016/j.cma.2017.09.003, coefficients measured for this method). c = 0.1; slip walls: 0.01, and
+/// the products of jumps by their means over the facet, as P1 cannot follow every facet of a round wall that nothing else holds.
 /// Pure penalty (the paper's): pbar [u].[w] alone.
 /// A rigid motion has no stress and is a P1 function, so all blocks are built for the nodal jumps; the solid's rows and
 /// columns follow by transport of the nodal values: action equals reaction to round-off.
@@ -30,21 +31,23 @@ struct WallCoefficients
 
 /// Of the Nitsche condition, without the surface's convection. dt [s]; outflow: (a - ubar).n, mean over the facet [m/s].
 template<int D>
-inline WallCoefficients nitscheCoefficients(const ElementData<D>& e, double gamma, double h, double dt, double outflow)
+inline WallCoefficients nitscheCoefficients(const ElementData<D>& e, bool isSlip, double gamma, double h, double dt, double outflow)
 {
     double speed = 0;
     for (int d = 0; d < D; ++d) speed += e.advection[d]*e.advection[d];
     WallCoefficients c{};
     c.isNitsche = true;
+    c.isSlip = isSlip;
     c.mu = e.mu;
     c.tangential = gamma*e.mu/h + e.rho*std::max(0.0, -outflow);
-    c.normal = 0.1*e.rho*(h/dt + std::sqrt(speed));
+    c.normal = e.rho*((isSlip ? 0.01 : 0.1)*h/dt + 0.1*std::sqrt(speed));
     return c;
 }
 
-inline WallCoefficients penaltyCoefficients(double penalty)
+inline WallCoefficients penaltyCoefficients(bool isSlip, double penalty)
 {
     WallCoefficients c{};
+    c.isSlip = isSlip;
     c.tangential = penalty;
     return c;
 }
@@ -65,13 +68,13 @@ public:
         for (int a = 0; a <= D && c.isNitsche; ++a) setTraction(c, n, gradN + a*D, traction_[a]);
     }
 
-    /// block (a,b) of the jumps: (D + 1)^2, row-major, velocity first. m1 = int N_a, m2 = int N_a N_b over the group.
-    void block(int a, int b, double m1a, double m1b, double m2, double* m) const
+    /// block (a,b) of the jumps: (D + 1)^2, row-major, velocity first. m1 = int N_a, m2 = int N_a N_b over the group; held: m2, or that of their means.
+    void block(int a, int b, double m1a, double m1b, double m2, double held, double* m) const
     {
         constexpr int B = D + 1;
         for (int k = 0; k < D; ++k)
         {
-            for (int l = 0; l < D; ++l) m[k*B + l] = m2*held_[k][l] + m1b*traction_[a][l][k] - m1a*traction_[b][k][l];
+            for (int l = 0; l < D; ++l) m[k*B + l] = held*held_[k][l] + m1b*traction_[a][l][k] - m1a*traction_[b][k][l];
             m[k*B + D] = m2*pressure_[k];
             m[D*B + k] = -m2*pressure_[k];
         }

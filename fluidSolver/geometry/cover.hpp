@@ -38,6 +38,9 @@ struct CutFacet
 /// Interior face of two active elements of which at least one is cut.
 struct GhostFace { int face; double area; double normal[3]; /* from element[0] to element[1] */ };
 
+/// Node of a wall; share: 1 where a solid touches it, 0 from a gap of one element on.
+struct FilmNode { int node; double share; };
+
 /// Distance at nodes that no solid is near to [m].
 constexpr double farDistance = 1e30;
 
@@ -53,6 +56,7 @@ struct Cover
     std::vector<CutFacet> facets;       ///< a 3D quadrilateral cut is two facets
     std::vector<GhostFace> ghostFaces;
     std::vector<char> isActiveNode;     ///< nNodes: some element with a fluid part holds the node
+    std::vector<FilmNode> filmNodes;    ///< on walls, a loose solid less than an element over them: see WallFilm
     std::vector<double> solidVolume;    ///< per solid: sum over owned elements of the part it cuts out, all ranks [m^dim]
     std::vector<double> solidArea;      ///< per solid: wetted surface of the cut, all ranks [m^(dim-1)]
     long nSharedElements = 0;           ///< cut elements with nodes in two different solids (gap below the mesh), owned, all ranks

@@ -58,7 +58,7 @@ int cornerOf(const SimplexMesh& mesh, const InteriorFace& face, int side)
 } // namespace
 
 CoverBuilder::CoverBuilder(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo)
-    : mesh_(mesh), graph_(graph), halo_(halo), bins_(mesh, nodeReach(mesh, halo)), snap_(nodeSnap(mesh, halo)),
+    : mesh_(mesh), graph_(graph), halo_(halo), bins_(mesh, nodeReach(mesh, halo)), film_(mesh, halo), snap_(nodeSnap(mesh, halo)),
       elementFace_(std::size_t(mesh.nElements) * (mesh.dim + 1), -1), isBoundaryNode_(mesh.nNodes, 0),
       elementMark_(mesh.nElements, 0), nodeMark_(mesh.nNodes, 0), face_(mesh.nNodes, 0), aloneDistance_(mesh.nNodes, farDistance),
       aloneFace_(mesh.nNodes, 0)
@@ -138,7 +138,15 @@ void CoverBuilder::sample(const Solid& solid, std::vector<Sample>& samples) cons
         const int nFaces = sharp ? shape.faceDistances(y, faces) : 0;
         const double* nearest = std::max_element(faces, faces + nFaces);
         const double d = nFaces > 0 ? *nearest : shape.distance(y);
-        if (d <= limit) samples.push_back({node, static_cast<int>(nearest - faces), d});
+        if (d > limit) return;
+        double film = noFilm;
+        if (nFaces == 0) film = film_.thickness(node, solid);
+        else if (film_.lift(node, solid, nFaces, faces))
+        {
+            nearest = std::max_element(faces, faces + nFaces);
+            if (*nearest > d) film = *nearest;
+        }
+        samples.push_back({node, static_cast<int>(nearest - faces), d, film});
     });
 }
 
@@ -152,7 +160,8 @@ void CoverBuilder::sampleMovingSolids(const std::vector<Solid>& solids)
 double CoverBuilder::cutDistance(const Solid& solid, const Sample& sample) const
 {
     const auto x = mesh_.spacePoint(sample.node);
-    return snapped(sample.node, sample.distance - solid.offsetAt(Vec3(x[0], x[1], x[2])));
+    const double distance = snapped(sample.node, sample.distance - solid.offsetAt(Vec3(x[0], x[1], x[2])));
+    return std::max(distance, sample.film);
 }
 
 void CoverBuilder::applySamples(Cover& cover, const std::vector<Solid>& solids, int solid, const std::vector<Sample>& samples)
@@ -160,6 +169,7 @@ void CoverBuilder::applySamples(Cover& cover, const std::vector<Solid>& solids, 
     for (const Sample& s : samples)
     {
         const double d = cutDistance(solids[solid], s);
+        if (const double share = film_.share(s.node, solids[solid], d); share > 0) cover.filmNodes.push_back({s.node, share});
         if (d < cover.distance[s.node])
         {
             cover.distance[s.node] = d;
@@ -271,6 +281,7 @@ void CoverBuilder::restoreFixedCover()
         cover_.state[e] = fixedCover_.state[e];
         for (int a = 0; a <= mesh_.dim; ++a) cover_.isActiveNode[nodesOf(e)[a]] = fixedCover_.isActiveNode[nodesOf(e)[a]];
     }
+    cover_.filmNodes.clear();
     touchedNodes_.clear();
     touchedElements_.clear();
 }

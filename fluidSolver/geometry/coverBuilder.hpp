@@ -6,6 +6,7 @@
 #include "geometry/cover.hpp"
 #include "geometry/cutSimplex.hpp"
 #include "geometry/nodeBins.hpp"
+#include "geometry/wallFilm.hpp"
 
 #include <array>
 #include <cmath>
@@ -40,8 +41,9 @@ public:
     double exactVolume(const Solid& solid) { return known(solid).volume; }
 
 private:
-    /// Distance of one solid at a node near it, without the solid's offsets, and the position of the nearest of the shape's faces.
-    struct Sample { int node, face; double distance; };
+    /// Distance of one solid at a node near it, without the solid's offsets, and the position of the nearest of the shape's faces. film: how far the
+    /// solid is kept off a wall there at least.
+    struct Sample { int node, face; double distance, film; };
 
     /// What one solid alone cuts out: integrals of (1, r) over the volume and of their products over the surface, r from the origin.
     struct OwnCut
@@ -110,6 +112,7 @@ private:
     const NodeGraph& graph_;
     const Halo& halo_;
     NodeBins bins_;
+    WallFilm film_;
     std::vector<double> snap_;          // nNodes: distance that counts as solid [m]
     std::vector<int> elementFace_;      // nElements*(dim+1): position in graph.faces, -1 at the boundary
     std::vector<char> isBoundaryNode_;

@@ -63,6 +63,7 @@ EdgeCut<dim> CoverBuilder::cutAtEdge(const Solid& solid, int element) const
     {
         const auto x = mesh_.spacePoint(nodesOf(element)[a]);
         nFaces = solid.faceDistances(Vec3(x[0], x[1], x[2]), at[a]);
+        film_.lift(nodesOf(element)[a], solid, nFaces, at[a]);
     }
     for (int k = 0; k < nFaces; ++k)
     {

@@ -30,6 +30,7 @@ struct Solid
     std::string name;
     Kind kind = Kind::Fixed;
     Wall wall = Wall::NoSlip;
+    bool isLoose = false;               ///< nothing joins it to the mesh's walls: a film is left between them, see WallFilm
     std::shared_ptr<const Shape> shape; ///< in the body frame; free body: centroid at the origin, principal axes
     Pose pose;                          ///< at the time the cover was (or is to be) cut
     Motion motion;                      ///< at that time; free body: predicted, the solve corrects it

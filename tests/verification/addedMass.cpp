@@ -94,24 +94,28 @@ double lastError(const ErrorTable& table, int rows) { return table.value("|error
 TEST_CASE("cylinder")
 {
     const Case c{2, makeCylinder(Vec3(0, 0, -0.5), Vec3(0, 0, 0.5), 0.5), M_PI/4, ofCylinder, 10, 4, 0};
-    CHECK(lastError(study("Cylinder", c, {24, 48, 96}), 3) < 0.01);
+    const ErrorTable table = study("Cylinder", c, {24, 48, 96});
+    CHECK(table.value("|error|", 0) < 0.01);
+    CHECK(lastError(table, 3) < 0.01);
 }
 TEST_CASE("square bar along a side and along the diagonal")
 {
     Case c{2, makeBox(Vec3::Zero(), Vec3::Ones()), 1, ofSquare, 10, 4, 0};
-    CHECK(lastError(study("Square bar", c, {24, 48, 96}), 3) < 0.03);
+    CHECK(lastError(study("Square bar", c, {24, 48, 96}), 3) < 0.01);
     c.angle = M_PI/4; // the same in every direction
-    CHECK(lastError(study("Square bar turned by 45 degrees", c, {24, 48, 96}), 3) < 0.03);
+    CHECK(lastError(study("Square bar turned by 45 degrees", c, {24, 48, 96}), 3) < 0.01);
 }
 TEST_CASE("sphere")
 {
     const Case c{3, makeSphere(Vec3::Zero(), 0.5), M_PI/6, ofSphere, 3, 3, 0};
-    CHECK(lastError(study("Sphere", c, {10, 20, 40}), 3) < 0.02);
+    const ErrorTable table = study("Sphere", c, {10, 20, 40});
+    CHECK(table.value("|error|", 0) < 0.07); // six elements
+    CHECK(lastError(table, 3) < 0.01);
 }
 TEST_CASE("cube")
 {
     const Case c{3, makeBox(Vec3::Zero(), Vec3::Ones()), 1, ofCube, 3, 3, 0};
     const ErrorTable table = study("Cube", c, {10, 20, 40}); // edges: first order
-    CHECK(lastError(table, 3) < 0.1);
-    CHECK(table.lastOrder("|error|") > 0.85);
+    CHECK(table.value("|error|", 0) < 0.1);  // 0.22 with all of the ghost penalties on every cut
+    CHECK(lastError(table, 3) < 0.045);
 }

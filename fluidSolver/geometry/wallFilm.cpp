@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/wallFilm.hpp"
+
+#include "core/patchFaces.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flotsam
+{
+
+namespace
+{
+
+constexpr double reachOfFilm = 0.5;     // over the height of the elements on the wall
+constexpr double facingCosine = 0.5;    // least one of a face that looks at the wall
+constexpr double flatCosine = 0.9;      // of one that lies on it, and ends there: the film goes on to its rim
+constexpr double oppositeCosine = -0.5; // of the normals of walls that face each other
+
+/// Without the offset, which the cut still looks for.
+double plainDistance(const Solid& solid, const Vec3& x)
+{
+    return solid.shape->distance(solid.pose.orientation.conjugate()*(x - solid.pose.position));
+}
+
+/// Nodes with an element between two walls that face each other: off both, nothing would be left of a body between. height: 0 off the walls.
+std::vector<double> narrowNodes(const SimplexMesh& mesh, const std::vector<double>& normal, const std::vector<double>& height)
+{
+    const int dim = mesh.dim, n = dim + 1;
+    std::vector<double> isNarrow(mesh.nNodes, 0.0);
+    for (int e = 0; e < mesh.nElements; ++e)
+        for (int a = 0; a < n; ++a)
+            for (int b = 0; b < a; ++b)
+            {
+                const int i = mesh.elements[std::size_t(e)*n + a], j = mesh.elements[std::size_t(e)*n + b];
+                if (height[i] <= 0 || height[j] <= 0) continue;
+                double product = 0, ofI = 0, ofJ = 0;
+                for (int d = 0; d < dim; ++d)
+                {
+                    const double u = normal[std::size_t(i)*dim + d], v = normal[std::size_t(j)*dim + d];
+                    product += u*v;
+                    ofI += u*u;
+                    ofJ += v*v;
+                }
+                if (product < oppositeCosine*std::sqrt(ofI*ofJ)) isNarrow[i] = isNarrow[j] = 1;
+            }
+    return isNarrow;
+}
+
+} // namespace
+
+WallFilm::WallFilm(const SimplexMesh& mesh, const Halo& halo) : mesh_(mesh), position_(mesh.nNodes, -1)
+{
+    const int dim = mesh.dim;
+    std::vector<double> normal(std::size_t(mesh.nNodes)*dim, 0.0), height(mesh.nNodes, 0.0);
+    for (const MeshPatch& patch : mesh.patches)
+    {
+        if (patch.type != "wall") continue;
+        for (std::size_t f = 0; f < patch.faceElement.size(); ++f)
+        {
+            double v[3], area = 0;
+            outwardVector(mesh, patch, f, v);
+            for (int d = 0; d < dim; ++d) area += v[d]*v[d];
+            const double ofElement = dim*mesh.volume[patch.faceElement[f]]/std::sqrt(area);
+            for (int k = 0; k < dim; ++k)
+            {
+                const int i = patch.faceNodes[f*dim + k];
+                for (int d = 0; d < dim; ++d) normal[std::size_t(i)*dim + d] += v[d];
+                height[i] = height[i] > 0 ? std::min(height[i], ofElement) : ofElement;
+            }
+        }
+    }
+    halo.update(normal, dim);   // second-ring copies do not see all of their faces
+    halo.update(height, 1);
+    std::vector<double> isNarrow = narrowNodes(mesh, normal, height);
+    halo.update(isNarrow, 1);
+    for (int i = 0; i < mesh.nNodes; ++i)
+    {
+        if (height[i] <= 0 || isNarrow[i] > 0) continue;
+        WallNode node;
+        for (int d = 0; d < dim; ++d) node.normal[mesh.axes[d]] = normal[std::size_t(i)*dim + d];
+        node.normal.normalize();
+        node.height = height[i];
+        position_[i] = int(nodes_.size());
+        nodes_.push_back(node);
+    }
+}
+
+const WallFilm::WallNode* WallFilm::wallNode(int i, const Solid& solid) const
+{
+    return solid.isLoose && position_[i] >= 0 ? &nodes_[position_[i]] : nullptr;
+}
+
+Vec3 WallFilm::pointOver(int i, const WallNode& wall, double heights) const
+{
+    const std::array<double, 3> x = mesh_.spacePoint(i);
+    return Vec3(x[0], x[1], x[2]) - heights*wall.height*wall.normal;
+}
+
+double WallFilm::thickness(int i, const Solid& solid) const
+{
+    const WallNode* wall = wallNode(i, solid);
+    if (!wall) return noFilm;
+    // beside the solid as far as the film is thick: no jump as its edges pass the node
+    const double film = filmThickness*wall->height;
+    return plainDistance(solid, pointOver(i, *wall, reachOfFilm)) < film ? film : noFilm;
+}
+
+double WallFilm::share(int i, const Solid& solid, double distance) const
+{
+    const WallNode* wall = wallNode(i, solid);
+    return wall ? std::clamp(1 - distance/wall->height, 0.0, 1.0) : 0;
+}
+
+bool WallFilm::lift(int i, const Solid& solid, int nFaces, double* distances) const
+{
+    const WallNode* wall = wallNode(i, solid);
+    if (!wall) return false;
+    const std::array<double, 3> x = mesh_.spacePoint(i);
+    double here[maxFaces], over[maxFaces];
+    solid.faceDistances(Vec3(x[0], x[1], x[2]), here);
+    solid.faceDistances(pointOver(i, *wall, reachOfFilm), over);
+    const double film = filmThickness*wall->height;
+    const bool isBeside = *std::max_element(distances, distances + nFaces) >= film;
+    bool isLifted = false;
+    for (int k = 0; k < nFaces; ++k)
+    {
+        const double cosine = (here[k] - over[k])/(reachOfFilm*wall->height);
+        if (distances[k] >= film || cosine <= (isBeside ? flatCosine : facingCosine)) continue;
+        distances[k] = film;
+        isLifted = true;
+    }
+    return isLifted;
+}
+
+} // namespace flotsam

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The film of fluid between a body and a wall of the mesh that it lies on.
+///
+/// A body that touches a wall leaves no element between: no pressure would act on its side there, though under driftwood on a bed there always is water. So the cut keeps
+/// the surface of a loose solid a film's thickness off the walls: the pressure goes on from the film's rim under the body, on the body and on the wall alike, and a
+/// body that lifts draws the fluid in. Of wider gaps the film knows nothing: the cut is continuous in the body's place.
+#pragma once
+
+#include "algebra/halo.hpp"
+#include "geometry/solid.hpp"
+
+#include <vector>
+
+namespace flotsam
+{
+
+constexpr double filmThickness = 0.05;  ///< over the height of the elements on the wall
+constexpr double noFilm = -1e30;        ///< thickness where there is none [m]
+
+class WallFilm
+{
+public:
+    /// Of the mesh's patches of type wall. Collective.
+    WallFilm(const SimplexMesh& mesh, const Halo& halo);
+
+    /// Distance that a solid less than half an element over a wall keeps from its node at least [m]; noFilm: no such node, no such solid.
+    double thickness(int node, const Solid& solid) const;
+
+    /// Of a solid that is cut by its faces: signed distances of the faces at the node. Those that look at the wall are kept off it; whether there are any.
+    bool lift(int node, const Solid& solid, int nFaces, double* distances) const;
+
+    /// FilmNode::share of a solid `distance` away from the node [m].
+    double share(int node, const Solid& solid, double distance) const;
+
+private:
+    struct WallNode
+    {
+        Vec3 normal = Vec3::Zero();     // out of the fluid
+        double height = 0;              // of the elements on the wall, the lowest [m]
+    };
+
+    const WallNode* wallNode(int node, const Solid& solid) const;
+    Vec3 pointOver(int node, const WallNode& wall, double heights) const;
+
+    const SimplexMesh& mesh_;
+    std::vector<int> position_;         // nNodes: in nodes_, -1: not on a wall
+    std::vector<WallNode> nodes_;
+};
+
+} // namespace flotsam

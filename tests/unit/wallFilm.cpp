@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The cut keeps a loose solid a film's thickness off the mesh's walls, and nothing else.
+#include "geometry/coverBuilder.hpp"
+#include "support/boxMesh.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace flotsam;
+
+namespace
+{
+
+constexpr double h = 0.1, film = filmThickness*h;
+
+/// A box of 1 m with walls all around.
+struct Room
+{
+    SimplexMesh mesh;
+    NodeGraph graph;
+    Halo halo;
+
+    Room(int dim, bool alternate)
+    :   mesh(withWalls(makeBoxMesh(MPI_COMM_WORLD, dim, {10, 10, 10}, {0, 0, 0}, {1, 1, 1}, 0, alternate))), graph(mesh), halo(mesh, MPI_COMM_WORLD)
+    {}
+
+    static SimplexMesh withWalls(SimplexMesh mesh)
+    {
+        for (MeshPatch& patch : mesh.patches) patch.type = "wall";
+        return mesh;
+    }
+
+    Cover cut(const Solid& solid) const { return cutMesh(mesh, graph, halo, {solid}); }
+};
+
+/// Height of the cut over the floor of a face `gap` over it: lifted at the floor's nodes alone.
+double bottomOf(double gap) { return gap < film ? film*h/(h + film - gap) : gap; }
+
+Solid looseBox(const Vec3& lower, const Vec3& upper)
+{
+    Solid solid;
+    solid.kind = Solid::Kind::Free;
+    solid.isLoose = true;
+    solid.shape = makeBox(Vec3::Zero(), upper - lower);
+    solid.pose.position = 0.5*(lower + upper);
+    return solid;
+}
+
+/// Sum over a solid's facets of area and normal: 0 for a closed surface.
+Vec3 closure(const Room& room, const Cover& cover)
+{
+    double sum[3] = {};
+    for (const CutFacet& facet : cover.facets)
+        for (int d = 0; d < room.mesh.dim && room.mesh.isOwnedElement[facet.element]; ++d) sum[d] += facet.area*facet.normal[d];
+    room.halo.sum(sum, 3);
+    return Vec3(sum[0], sum[1], sum[2]);
+}
+
+} // namespace
+
+TEST_CASE("a box on the floor, flush with the mesh or not, loses the film and keeps a closed surface")
+{
+    for (const int dim : {2, 3})
+        for (const bool alternate : {false, true})
+            for (const double x : {0.3, 0.3 + 1e-9, 0.3 - 1e-9, 0.303, 0.337})
+                for (const double gap : {-1e-4, -1e-9, 0.0, 1e-9, 0.2*film, film, 2*film, 0.7*h})
+                {
+                    CAPTURE(dim);
+                    CAPTURE(x);
+                    CAPTURE(gap);
+                    const Room room(dim, alternate);
+                    const double depth = dim == 2 ? 1 : 0.37;
+                    const Cover cover = room.cut(looseBox(Vec3(x, gap, 0.31), Vec3(x + 0.4, gap + 0.35, 0.31 + depth)));
+                    CHECK(cover.solidVolume[0] == doctest::Approx(0.4*depth*(gap + 0.35 - bottomOf(gap))).epsilon(1e-6));
+                    CHECK(closure(room, cover).norm() < 1e-7);
+                    CHECK(cover.filmNodes.empty() == false);
+                }
+}
+
+TEST_CASE("in a corner of walls the film is on both")
+{
+    for (const int dim : {2, 3})
+        for (const bool alternate : {false, true})
+        {
+            CAPTURE(dim);
+            CAPTURE(alternate);
+            const Room room(dim, alternate);
+            const double depth = dim == 2 ? 1 : 0.37;
+            for (const bool isLeft : {true, false})
+            {
+                const double x = isLeft ? 0 : 0.6;
+                const Cover cover = room.cut(looseBox(Vec3(x, 0, 0.31), Vec3(x + 0.4, 0.35, 0.31 + depth)));
+                CHECK(cover.solidVolume[0] == doctest::Approx((0.4 - bottomOf(0))*(0.35 - bottomOf(0))*depth).epsilon(1e-3));
+                CHECK(closure(room, cover).norm() < 1e-7);
+            }
+        }
+}
+
+TEST_CASE("round bodies keep their volume, structures and bodies away from walls are cut as they are")
+{
+    Room room(2, true);
+    CoverBuilder builder(room.mesh, room.graph, room.halo);
+    std::vector<Solid> solids(1);
+    solids[0].kind = Solid::Kind::Free;
+    solids[0].isLoose = true;
+    solids[0].shape = makeCylinder(Vec3(0, 0, -1), Vec3(0, 0, 1), 0.2);
+    solids[0].pose.position = Vec3(0.47, 0.199, 0);
+    for (int k = 0; k < 4; ++k) builder.buildExactVolume(solids);
+    CHECK(builder.cover().solidVolume[0] == doctest::Approx(M_PI*0.04).epsilon(1e-4));
+    CHECK(closure(room, builder.cover()).norm() < 1e-7);
+
+    const auto boxOnFloor = [&](Solid::Kind kind, bool isLoose)
+    {
+        Solid box = looseBox(Vec3(0.3, 0, 0), Vec3(0.7, 0.35, 1));
+        box.kind = kind;
+        box.isLoose = isLoose;
+        return room.cut(box);
+    };
+    for (const Solid::Kind kind : {Solid::Kind::Fixed, Solid::Kind::Prescribed, Solid::Kind::Free})
+    {
+        const Cover joined = boxOnFloor(kind, false);
+        CHECK(joined.filmNodes.empty());
+        for (MeshPatch& patch : room.mesh.patches) patch.type = "patch";
+        CHECK(boxOnFloor(kind, true).solidVolume[0] == joined.solidVolume[0]);
+        for (MeshPatch& patch : room.mesh.patches) patch.type = "wall";
+    }
+    const Cover away = room.cut(looseBox(Vec3(0.3, 0.13, 0), Vec3(0.7, 0.5, 1)));
+    CHECK(away.solidVolume[0] == doctest::Approx(0.4*0.37).epsilon(1e-9));
+    CHECK(away.filmNodes.empty());
+
+    for (MeshPatch& patch : room.mesh.patches) patch.type = "patch"; // open: a body on its way out
+    const Cover leaving = room.cut(looseBox(Vec3(0.8, 0, 0), Vec3(1.2, 0.35, 1)));
+    CHECK(leaving.solidVolume[0] == doctest::Approx(0.2*0.35).epsilon(1e-9));
+}
+
+TEST_CASE("tilted boxes over the floor are cut as they are until they touch it")
+{
+    for (const double angle : {0.5, 0.785, 1.1})
+        for (const double gap : {0.2*h, 0.6*h})
+        {
+            CAPTURE(angle);
+            CAPTURE(gap);
+            Room room(2, true);
+            Solid box = looseBox(Vec3(0.3, 0, 0), Vec3(0.6, 0.2, 1));
+            box.pose.orientation = Eigen::AngleAxisd(angle, Vec3::UnitZ());
+            box.pose.position[1] = gap + 0.15*std::sin(angle) + 0.1*std::cos(angle);
+            CHECK(room.cut(box).solidVolume[0] == doctest::Approx(0.3*0.2).epsilon(1e-9));
+        }
+}
+
+TEST_CASE("between walls one element apart there is no room for films")
+{
+    Room room(3, false);
+    room.mesh = Room::withWalls(makeBoxMesh(MPI_COMM_WORLD, 3, {10, 10, 1}, {0, 0, 0}, {1, 1, 0.1}));
+    const NodeGraph graph(room.mesh);
+    const Halo halo(room.mesh, MPI_COMM_WORLD);
+    Solid solid = looseBox(Vec3(0.3, 0.3, 0), Vec3(0.7, 0.65, 0.1));
+    CHECK(cutMesh(room.mesh, graph, halo, {solid}).solidVolume[0] == doctest::Approx(0.4*0.35*0.1).epsilon(1e-9));
+    solid.shape = makeSphere(Vec3::Zero(), 0.2);
+    const double volume = cutMesh(room.mesh, graph, halo, {solid}).solidVolume[0];
+    solid.isLoose = false;
+    CHECK(volume == cutMesh(room.mesh, graph, halo, {solid}).solidVolume[0]);
+}
