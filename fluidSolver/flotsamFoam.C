@@ -29,16 +29,22 @@ constexpr double growthLimit = 1.2;     // of the time step from step to step
 constexpr double retryFactor = 0.5;     // of the time step after a rejected step
 constexpr int maxRetries = 8;
 
+/// Courant numbers of a time step of 1 s.
+CourantNumbers courantRates(const CoupledStep& step)
+{
+    const CourantRates flow = step.fluid().courantRates();
+    return {flow.mean, flow.largest, step.bodyCourantRate()};
+}
+
 /// Next time step and the word for what limits it.
-std::pair<double, std::string> nextTimeStep(const CoupledStep& step, const TimeControls& time, double last)
+std::pair<double, std::string> nextTimeStep(const CourantNumbers& rates, const TimeControls& time, double last)
 {
     double dt = growthLimit*last;
     std::string limit = "growth";
     auto cap = [&](double value, const char* word) { if (value < dt) { dt = value; limit = word; } };
     if (!time.adjustTimeStep) return {time.deltaT, "fixed"};
-    const double flow = step.fluid().courantRate(), body = step.bodyCourantRate();
-    if (flow > 0) cap(time.maxCo/flow, "flow");
-    if (body > 0) cap(time.maxBodyCo/body, "body");
+    if (rates.largest > 0) cap(time.maxCo/rates.largest, "flow");
+    if (rates.bodies > 0) cap(time.maxBodyCo/rates.bodies, "body");
     cap(time.maxDeltaT, "cap");
     return {dt, limit};
 }
@@ -127,11 +133,31 @@ int verticalAxis(const std::array<double, 3>& gravity)
     return axis;
 }
 
+/// Each would believe that it has the whole mesh.
+void checkProcesses()
+{
+    int size = 1;
+    MPI_Comm_size(MPI_COMM_WORLD, &size);
+    if (size > 1 && !Foam::Pstream::parRun())
+        throw std::runtime_error("mpirun has started " + std::to_string(size) + " processes of flotsamFoam without the option -parallel: decompose the case"
+            " (decomposePar) and run  mpirun -np " + std::to_string(size) + " flotsamFoam -parallel");
+}
+
+/// Of controlDict, which may be edited while the run goes on (runTimeModifiable), as OpenFOAM's solvers take it.
+void updateTimeControls(const Foam::Time& runTime, TimeControls& time)
+{
+    const TimeControls now = readTimeControls(runTime.controlDict());
+    if (now == time) return;
+    time = now;
+    Foam::Info<< "system/controlDict was changed: time step " << describe(time).c_str() << Foam::endl;
+}
+
 enum class Task { Run, Check, WeighCells };
 
 void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
 {
     PetscSession petsc(MPI_COMM_WORLD);
+    checkProcesses();
     const CaseControls controls = readCaseControls(runTime);
     const MeshAdapter adapter = makeSimplexMesh(mesh, MPI_COMM_WORLD, verticalAxis(controls.fluid.gravity));
     const Halo halo(adapter.mesh, MPI_COMM_WORLD);
@@ -141,11 +167,15 @@ void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     const Vec3 gravity(g[0], g[1], g[2]);
     const BodiesInput bodies = readBodies(mesh, adapter.mesh, halo, gravity);
     printCaseCheck(controls, adapter, halo, boundary, countScene(bodies));
-    if (task == Task::Check) writeNumerics(Foam::Info, controls.numerics);
+    PhaseTimers timers;
+    if (task == Task::Check)
+    {
+        RunOutput(runTime, adapter.mesh, halo, bodies, timers).checkStart();
+        writeNumerics(Foam::Info, controls.numerics);
+    }
     if (task == Task::WeighCells) weighCells(mesh, adapter, halo, bodies);
     if (task != Task::Run) return;
 
-    PhaseTimers timers;
     const DemSetup dem = makeDemSetup(bodies, controls.numerics.demTimeStep);
     CoupledStep step(adapter.mesh, halo, controls.fluid, controls.numerics, boundary, makeScene(bodies, gravity),
         bodies.bodies.empty() ? nullptr : &dem, timers);
@@ -153,22 +183,27 @@ void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
 
     FlowState start;
     start.time = runTime.value();
-    if (!output.readState(step))
+    if (!output.readState(step, fields))
     {
         fields.readStart(start);
         step.start(std::move(start), true);
     }
     runTime.setTime(step.fluid().state().time, runTime.timeIndex()); // OpenFOAM has it from the folder's name
-    WriteTimes writeTimes(runTime, output.firstStart(), step.fluid().state().dt);
+    WriteTimes writeTimes(runTime, output.firstStart(), output.lastStep());
     output.begin(step);
     mesh.primitiveMesh::clearAddressing();  // cells, edges and the like that only the start needed; the geometry must stay: fields of the fvMesh are slices of it
     installStopSignals();
 
-    double dt = output.timeStep() > 0 ? output.timeStep() : std::min(runTime.deltaTValue(), controls.time.maxDeltaT)/growthLimit;
+    TimeControls time = controls.time;
+    if (!runTime.run())
+        Foam::Info<< "Nothing to do: the run is at " << runTime.timeName() << " s, endTime of system/controlDict is " << runTime.endTime().value() << " s" << Foam::endl;
+    double dt = output.timeStep() > 0 ? output.timeStep() : std::min(runTime.deltaTValue(), time.maxDeltaT)/growthLimit;
     while (runTime.run())
     {
-        auto [wanted, limit] = nextTimeStep(step, controls.time, dt);
-        if (wanted < controls.time.minDeltaT)
+        updateTimeControls(runTime, time);
+        const CourantNumbers rates = courantRates(step);
+        auto [wanted, limit] = nextTimeStep(rates, time, dt);
+        if (wanted < time.minDeltaT)
             throw std::runtime_error("the flow limits the time step to " + std::to_string(wanted) + " s at t = "
                 + std::to_string(runTime.value()) + " s, below minDeltaT of system/controlDict: "
                 + step.fluid().describeFastest() + ". The solution has become unstable there: look at the last written fields,"
@@ -176,13 +211,13 @@ void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         double used = writeTimes.setStep(wanted);
         if (used < 0.999*wanted) limit = "write";
         const double before = used;
-        const StepResult result = advance(step, controls.time, used, output);
+        const StepResult result = advance(step, time, used, output);
         if (used < before) limit = "retry";
         dt = limit == "write" ? wanted : used;
         writeTimes.advance(used);
         step.fluid().state().time = runTime.value(); // OpenFOAM's clock, to the last digit
 
-        output.record(step, result, limit);
+        output.record(step, result, limit, rates*used);
         const bool isStopping = halo.any(stopRequested());
         const bool writeNow = halo.any(takeWriteRequest());
         if (fields.isNeeded() || isStopping || writeNow)

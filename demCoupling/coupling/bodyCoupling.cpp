@@ -62,6 +62,7 @@ BodyCoupling::BodyCoupling(const DemSetup& setup, const CouplingControls& contro
     contactCounts_.assign(n, 0);
     wallContactCounts_.assign(setup.walls.size(), 0);
     isHeld_.assign(n, 0);
+    isGone_.assign(n, 0);
     states_.resize(n);
     result_.resize(n);
     guarded([&]
@@ -170,7 +171,7 @@ void BodyCoupling::begin(double time, double dt)
     for (int b = 0; b < nBodies(); ++b)
         springSpeed_ = std::max(springSpeed_, std::sqrt(overlapAtStart_*contact_[b].force.norm()/setup_.bodies[b].mass));
     std::vector<char> held(isHeld_);
-    for (int b = 0; b < nBodies(); ++b) held[b] = time < setup_.bodies[b].releaseTime - 1e-9 || hasLeft(b);
+    for (int b = 0; b < nBodies(); ++b) held[b] = time < setup_.bodies[b].releaseTime - 1e-9 || isGone_[b];
     isAtStart_ = true;
     hold(held);
     guarded([&] { saved_ = engine_->save(); });
@@ -192,6 +193,24 @@ void BodyCoupling::hold(const std::vector<char>& isHeld)
     isHeld_ = isHeld;
 }
 
+void BodyCoupling::takeOut(const std::vector<char>& bodies)
+{
+    std::vector<char> held(isHeld_);
+    std::vector<Load> guess = contactGuess();
+    for (int b = 0; b < nBodies(); ++b)
+    {
+        if (!bodies[b] || isGone_[b]) continue;
+        isGone_[b] = held[b] = 1;
+        contactCounts_[b] = 0;
+        guess[b] = lastLoads_[b] = newContact_[b] = contact_[b] = Load();
+        inertia_.drop(b);
+    }
+    iteration_.setGuess(guess);
+    smoothing_ = difference(guess, contact_);
+    hold(held);
+    guarded([&] { engine_->setGone(isGone_); });
+}
+
 /// The body after the step if its smooth motion's last acceleration went on. Its pose is what the fluid is cut with.
 BodyState BodyCoupling::drifted(int b) const
 {
@@ -211,7 +230,7 @@ bool BodyCoupling::hasLightBodies() const
     return false;
 }
 
-bool BodyCoupling::hasLeft(int b) const
+bool BodyCoupling::isFarOff(int b) const
 {
     const Vec3 margin = Vec3::Constant((setup_.box[1] - setup_.box[0]).norm()), x = states_[b].pose.position;
     return ((setup_.box[0] - margin - x).array() > 0).any() || ((x - setup_.box[1] - margin).array() > 0).any();
@@ -224,7 +243,7 @@ std::string BodyCoupling::brokenContact(double fluidSpeed) const
     const bool hasConverged = mismatch() <= controls_.tolerance;
     const std::string thrown = hasConverged ? "" : check_.thrownBody(states_, result_, newContact_, fluidSpeed, slack);
     if (!thrown.empty()) return "contact throws body '" + thrown + "' faster than anything there is";
-    return check_.passage(states_, result_, newContact_);
+    return check_.passage(states_, result_, newContact_, isGone_);
 }
 
 bool BodyCoupling::correct(const std::vector<Load>& loads)
@@ -285,14 +304,14 @@ std::vector<double> BodyCoupling::save() const
     for (const InertiaFactor& f : inertia_.factors()) data.insert(data.end(), {f.mass, f.turn});
     const std::vector<double> smooth = smooth_->save();
     data.insert(data.end(), smooth.begin(), smooth.end());
-    data.insert(data.end(), isHeld_.begin(), isHeld_.end());
+    for (const std::vector<char>* flags : {&isHeld_, &isGone_}) data.insert(data.end(), flags->begin(), flags->end());
     data.push_back(largestOverlap_);
     return data;
 }
 
 void BodyCoupling::restore(const std::vector<double>& data)
 {
-    const std::size_t tail = (3*6 + 2 + SmoothMotion::perBody + 1)*setup_.bodies.size() + 1;
+    const std::size_t tail = (3*6 + 2 + SmoothMotion::perBody + 2)*setup_.bodies.size() + 1;
     if (data.size() < tail) throw std::runtime_error("restart: the stored state of the bodies is too short for this case");
     const double* at = data.data() + data.size() - tail;
     std::vector<Load> guess(lastLoads_.size());
@@ -305,8 +324,12 @@ void BodyCoupling::restore(const std::vector<double>& data)
     inertia_.setFactors(factors);
     const double* smooth = at;
     at += SmoothMotion::perBody*isHeld_.size();
-    isHeld_.assign(at, at + isHeld_.size());
-    largestOverlap_ = at[isHeld_.size()];
+    for (std::vector<char>* flags : {&isHeld_, &isGone_})
+    {
+        flags->assign(at, at + flags->size());
+        at += flags->size();
+    }
+    largestOverlap_ = *at;
     guarded([&]
     {
         engine_->setHeld(isHeld_);

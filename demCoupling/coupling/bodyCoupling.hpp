@@ -10,7 +10,7 @@
 /// Without contact before and after the step the first correct() returns true: exactly one solve a step. A prediction by DEM
 /// sub-steps would cost one more DEM run in every step.
 /// The repeats: contactIteration.hpp; velocities of touched bodies: smoothMotion.hpp; light bodies: addedInertia.hpp; steps that must not be accepted: motionCheck.hpp.
-/// Bodies that have left the mesh by its diagonal are held where they are. Rank 0 owns the engine; every rank holds the same states.
+/// Bodies that have left the mesh are taken out: they rest where they left, and touch nothing. Rank 0 owns the engine; every rank holds the same states.
 #pragma once
 
 #include "demCoupling/coupling/addedInertia.hpp"
@@ -21,6 +21,7 @@
 
 #include <mpi.h>
 
+#include <algorithm>
 #include <functional>
 
 namespace flotsam
@@ -58,6 +59,13 @@ public:
     const std::vector<int>& wallContactCounts() const { return wallContactCounts_; } ///< bodies that touch each wall
     bool isHeld(int body) const { return isHeld_[body]; }
 
+    /// Between steps: these are taken out, for good. Collective; every rank gives the same.
+    void takeOut(const std::vector<char>& bodies);
+    bool isGone(int body) const { return isGone_[body]; }
+    int goneCount() const { return int(std::count(isGone_.begin(), isGone_.end(), 1)); }
+    /// Beyond the mesh's bounding box by its diagonal: wherever it flies, it has left.
+    bool isFarOff(int body) const;
+
     /// Bodies so light that the engine may be given a factor of their mass (addedInertia.hpp).
     bool hasLightBodies() const;
     int repeats() const { return iteration_.repeats(); } ///< further solves needed in this step
@@ -74,7 +82,6 @@ private:
     void shareResults();
     BodyState drifted(int body) const;
     void hold(const std::vector<char>& isHeld);
-    bool hasLeft(int body) const;
     void guarded(const std::function<void()>& work) const;
 
     DemSetup setup_;
@@ -89,7 +96,7 @@ private:
     std::vector<Load> smoothing_, guessAtStart_; // smoothing_: of the guess, what is not contact
     std::vector<InertiaFactor> factorsAtStart_;
     std::vector<int> contactCounts_, wallContactCounts_;
-    std::vector<char> isHeld_;
+    std::vector<char> isHeld_, isGone_;
     ContactIteration iteration_;
     AddedInertia inertia_;
     MotionCheck check_;

@@ -35,7 +35,9 @@ CoupledStep::CoupledStep(const SimplexMesh& mesh, const Halo& halo, const FluidP
     // 2D: the last bit of a section depends on the pose it is taken in, which must not be that in which a run goes on
     for (const Solid& solid : scene_.solids())
         if (solid.kind == Solid::Kind::Free) builder_->exactVolume(solid);
-    if (dem) coupling_ = std::make_unique<BodyCoupling>(*dem, couplingControls(fluid, controls), halo.comm());
+    if (!dem) return;
+    coupling_ = std::make_unique<BodyCoupling>(*dem, couplingControls(fluid, controls), halo.comm());
+    exit_ = std::make_unique<MeshExit>(mesh, halo, dem->bodies, Vec3(fluid.gravity[0], fluid.gravity[1], fluid.gravity[2]));
 }
 
 void CoupledStep::cut(bool hasChanged)
@@ -56,12 +58,12 @@ void CoupledStep::start(FlowState state, bool isSharp)
     loads_.assign(scene_.solids().size(), {Vec3::Zero(), Vec3::Zero()});
 }
 
-/// Of the scene's poses and offsets exactly: no further correction of volumes, no change of the phase field.
-void CoupledStep::restoreGeometry()
+/// Of the scene's poses and offsets exactly: no further correction of volumes. hasChanged: as Fluid::setGeometry().
+void CoupledStep::restoreGeometry(bool hasChanged)
 {
     if (scene_.isEmpty()) return;
     PhaseTimer t(timers_, Phase::Cut);
-    fluid_.setGeometry(&builder_->build(scene_.solids()), &scene_.solids(), false);
+    fluid_.setGeometry(&builder_->build(scene_.solids()), &scene_.solids(), hasChanged);
 }
 
 StepResult CoupledStep::step(double dt)
@@ -108,10 +110,26 @@ StepResult CoupledStep::step(double dt)
     {
         const std::vector<Motion> motions = fluid_.solidMotions();
         coupling_->accept({motions.begin() + scene_.nStructures(), motions.end()});
+        takeOutLeavers();
     }
     wet_ = fluid_.wetFractions();
     result.isAccepted = true;
     return result;
+}
+
+/// Bodies that have left the mesh: what cuts no element may have.
+void CoupledStep::takeOutLeavers()
+{
+    const Cover& cover = builder_->cover();
+    std::vector<char> mayBe(coupling_->nBodies(), 0);
+    for (int b = 0; b < coupling_->nBodies(); ++b)
+    {
+        const int s = scene_.nStructures() + b;
+        mayBe[b] = !coupling_->isHeld(b) && cover.solidVolume[s] == 0 && cover.solidArea[s] == 0;
+    }
+    std::vector<char> leavers = exit_->findOutside(coupling_->states(), mayBe);
+    for (int b = 0; b < coupling_->nBodies(); ++b) leavers[b] = leavers[b] || (!coupling_->isHeld(b) && coupling_->isFarOff(b));
+    if (std::find(leavers.begin(), leavers.end(), 1) != leavers.end()) coupling_->takeOut(leavers);
 }
 
 /// One solve with the present contact load and what it does to the solids. enough: see FlowLinearSolver::solve().
@@ -216,6 +234,7 @@ std::vector<BodyRecord> CoupledStep::records() const
         r.contactForce = coupling_->contactLoads()[body].force;
         r.contactMoment = coupling_->contactLoads()[body].moment;
         r.contacts = coupling_->contactCounts()[body];
+        r.hasLeft = coupling_->isGone(body);
     }
     return records;
 }
@@ -226,14 +245,12 @@ void CoupledStep::forgetUnwritten()
     forgetContact();
 }
 
-std::map<std::string, std::vector<double>> CoupledStep::save() const
+CoupledStep::Arrays CoupledStep::save() const
 {
-    std::map<std::string, std::vector<double>> arrays;
+    Arrays arrays;
     arrays["liquid"] = {fluid_.keptLiquid()};
-    arrays["massFluxes"] = fluid_.massFluxes().records();
     if (scene_.isEmpty()) return arrays;
     arrays["solids"] = scene_.save();
-    arrays["ghostFluxes"] = fluid_.ghostFluxes();
     std::vector<double> loads;
     for (const auto& l : loads_)
         for (const Vec3* v : {&l.force, &l.moment}) loads.insert(loads.end(), v->data(), v->data() + 3);
@@ -242,9 +259,16 @@ std::map<std::string, std::vector<double>> CoupledStep::save() const
     return arrays;
 }
 
-void CoupledStep::restore(FlowState state, const std::map<std::string, std::vector<double>>& arrays)
+CoupledStep::Arrays CoupledStep::saveOfProcess() const
 {
-    fluid_.start(std::move(state), false);
+    Arrays arrays{{"massFluxes", fluid_.massFluxes().records()}};
+    if (!scene_.isEmpty()) arrays["ghostFluxes"] = fluid_.ghostFluxes();
+    return arrays;
+}
+
+void CoupledStep::restore(FlowState state, const Arrays& arrays, Fields fields)
+{
+    fluid_.start(std::move(state), fields == Fields::Cells);
     auto array = [&](const char* name) -> const std::vector<double>&
     {
         const auto at = arrays.find(name);
@@ -252,17 +276,17 @@ void CoupledStep::restore(FlowState state, const std::map<std::string, std::vect
             + "'; it was written by a run without solids or bodies");
         return at->second;
     };
-    fluid_.setKeptLiquid(array("liquid").at(0));
-    fluid_.massFluxes().setRecords(array("massFluxes"));
+    if (fields != Fields::Cells) fluid_.setKeptLiquid(array("liquid").at(0));
+    if (fields == Fields::Exact) fluid_.massFluxes().setRecords(array("massFluxes"));
     if (scene_.isEmpty()) return;
     scene_.restore(array("solids"));
-    fluid_.setGhostFluxes(array("ghostFluxes"));
+    if (fields == Fields::Exact) fluid_.setGhostFluxes(array("ghostFluxes"));
     const std::vector<double>& loads = array("fluidLoads");
     loads_.assign(scene_.solids().size(), {Vec3::Zero(), Vec3::Zero()});
     for (std::size_t s = 0; s < loads_.size() && 6*s + 5 < loads.size(); ++s)
         for (int d = 0; d < 3; ++d) { loads_[s].force[d] = loads[6*s + d]; loads_[s].moment[d] = loads[6*s + 3 + d]; }
     if (coupling_) coupling_->restore(array("bodies"));
-    restoreGeometry();
+    restoreGeometry(fields == Fields::Cells);
     wet_ = fluid_.wetFractions();
 }
 

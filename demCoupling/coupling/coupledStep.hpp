@@ -3,6 +3,7 @@
 /// tests drive the same object.
 #pragma once
 
+#include "demCoupling/coupling/meshExit.hpp"
 #include "demCoupling/coupling/scene.hpp"
 #include "equations/fluid.hpp"
 #include "geometry/coverBuilder.hpp"
@@ -55,17 +56,27 @@ public:
 
     /// What no checkpoint holds: after one is written the run goes on as a restart from it would.
     void forgetUnwritten();
-    /// Arrays for a checkpoint beside the FlowState. Collective.
-    std::map<std::string, std::vector<double>> save() const;
-    void restore(FlowState state, const std::map<std::string, std::vector<double>>& arrays);
+    using Arrays = std::map<std::string, std::vector<double>>;
+    /// Arrays for a checkpoint beside the FlowState, the same on every process. Collective.
+    Arrays save() const;
+    Arrays saveOfProcess() const;       ///< the others
+    /// What the state given to restore() is.
+    enum class Fields
+    {
+        Exact,  ///< all of what was stored; arrays: of save() and saveOfProcess()
+        Nodal,  ///< the last time level at the nodes; arrays: of save()
+        Cells   ///< that as read from cells, as for start()
+    };
+    void restore(FlowState state, const Arrays& arrays, Fields fields);
 
 private:
     void cut(bool hasChanged);
-    void restoreGeometry();
+    void restoreGeometry(bool hasChanged = false);
     double smallestCutElement() const;  ///< [m]; huge where nothing is cut
     SolveReport solveFlow(StepResult& result, double enough);
     void solveWithContact(StepResult& result);
     void forgetContact();
+    void takeOutLeavers();
 
     const SimplexMesh& mesh_;
     const Halo& halo_;
@@ -75,6 +86,7 @@ private:
     Scene scene_;
     std::unique_ptr<CoverBuilder> builder_; // null without solids
     std::unique_ptr<BodyCoupling> coupling_;
+    std::unique_ptr<MeshExit> exit_;
     std::vector<Fluid::SolidLoad> loads_;   // fluid loads of the last solve
     std::vector<double> wet_;
     double contactChange_ = 0;  // residual over the right-hand side that the first new contact load of the last step left; 0: there was none

@@ -3,8 +3,8 @@
 #include "demCoupling/foam/bodyGroup.H"
 #include "demCoupling/foam/contactReader.H"
 #include "demCoupling/foam/meshWalls.H"
+#include "demCoupling/foam/structureChecks.H"
 #include "foam/dictionaryChecks.H"
-#include "geometry/primitives.hpp"
 
 #include "IOdictionary.H"
 #include "OSspecific.H"
@@ -171,16 +171,15 @@ SceneFrame makeFrame(const Foam::polyMesh& mesh, const SimplexMesh& simplexMesh,
     return frame;
 }
 
-/// A fixed structure beside the mesh does nothing: most likely a wrong place, axis or scale.
-void warnOutside(const BodiesInput& input)
+/// Without constant/bodies there are none: a file beside it that looks like one must not go unnoticed.
+void warnMisnamed(const Foam::Time& time)
 {
-    for (const StructureDefinition& s : input.structures)
+    const Foam::fileName folder = time.globalPath()/time.constant();
+    if (!Foam::Pstream::master() || Foam::isFile(folder/"bodies")) return;
+    for (const Foam::fileName& file : Foam::readDir(folder, Foam::fileName::FILE))
     {
-        if (s.motion) continue;
-        const auto [lower, upper] = PlacedShape(s.solid.shape, s.solid.pose.orientation, s.solid.pose.position).bounds();
-        if ((lower.array() < input.box[1].array()).all() && (upper.array() > input.box[0].array()).all()) continue;
-        Foam::Info<< "Warning: structure " << s.solid.name.c_str() << " lies outside of the mesh, it does nothing: from "
-            << Foam::vector(lower[0], lower[1], lower[2]) << " to " << Foam::vector(upper[0], upper[1], upper[2]) << Foam::nl;
+        const bool isLike = editDistance(file, "bodies") <= 2 || editDistance(file, "structures") <= 1 || file.find("bodies") != std::string::npos;
+        if (isLike) Foam::Info<< "Warning: constant/" << file.c_str() << " is not read: bodies and structures are described in constant/bodies" << Foam::nl;
     }
 }
 
@@ -198,7 +197,7 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
     frame.materials = input.materials;
 
     readStructures(dict, frame, input);
-    warnOutside(input);
+    reportStructures(input, frame);
     std::vector<BodyGroup> groups = readGroups(dict, frame);
     if (groups.empty())
     {
@@ -226,6 +225,7 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
 
 BodiesInput readBodies(const Foam::polyMesh& mesh, const SimplexMesh& simplexMesh, const Halo& halo, const Vec3& gravity)
 {
+    warnMisnamed(mesh.time());
     const Foam::IOobject io("bodies", mesh.time().constant(), mesh.time(), Foam::IOobject::READ_IF_PRESENT, Foam::IOobject::NO_WRITE, false);
     return readBodies(Foam::IOdictionary(io), mesh, simplexMesh, halo, gravity);
 }

@@ -37,53 +37,140 @@ std::vector<std::string> structureNames(const BodiesInput& input)
     return names;
 }
 
+/// Names as numbers, one a line: a state has nothing but numbers.
+std::vector<double> codesOf(const std::vector<HistoryMember>& members)
+{
+    std::vector<double> codes;
+    for (const HistoryMember& m : members)
+    {
+        for (const char c : m.name) codes.push_back(static_cast<unsigned char>(c));
+        codes.push_back('\n');
+    }
+    return codes;
+}
+
+std::vector<std::string> namesFrom(const std::vector<double>& codes)
+{
+    std::vector<std::string> names(1);
+    for (const double c : codes)
+    {
+        if (c == '\n') names.emplace_back();
+        else names.back() += char(int(c));
+    }
+    names.pop_back();
+    return names;
+}
+
 } // namespace
 
 RunOutput::RunOutput(const Foam::Time& runTime, const SimplexMesh& mesh, const Halo& halo, const BodiesInput& bodies,
     const PhaseTimers& timers)
 :   runTime_(runTime), mesh_(mesh), halo_(halo), timers_(timers), members_(makeMembers(bodies)),
-    log_(timers, runTime.value(), runTime.endTime().value()), forces_(structureNames(bodies)),
+    files_(runTime, mesh, halo), log_(timers, runTime.value(), runTime.endTime().value()), forces_(structureNames(bodies)),
     nStructures_(int(bodies.structures.size())), firstStart_(runTime.value())
 {}
 
-Foam::fileName RunOutput::stateFile() const { return runTime_.timePath()/"flotsamState.h5"; }
-
-/// flotsamFoam wrote this time, but on other processes: reconstructPar and decomposePar leave the state behind.
+/// flotsamFoam wrote this time, but its state was left behind.
 void RunOutput::warnAnew() const
 {
-    Foam::Info<< "Warning: time " << runTime_.timeName() << " has fields of flotsamFoam, but no flotsamState.h5: the run does not continue, it starts anew from"
-        << " these fields" << (members_.size() > std::size_t(nStructures_) ? ", with the bodies at their places in constant/bodies" : "")
-        << ".\n    A run continues on the number of processes that wrote the state (processor*/" << runTime_.timeName() << ").\n" << Foam::endl;
+    Foam::Info<< "Warning: time " << runTime_.timeName() << " has fields of flotsamFoam, but no flotsamState.h5, nor one in its folder 'uniform': the run"
+        << " does not continue, it starts anew from these fields" << (members_.size() > std::size_t(nStructures_) ? ", with the bodies at their places in constant/bodies" : "")
+        << ".\n    To continue, copy that file of the time it was written at to " << runTime_.timeName() << "/uniform.\n" << Foam::endl;
 }
 
-bool RunOutput::readState(CoupledStep& step)
+void RunOutput::failForeign() const
 {
-    const bool isHere = Foam::isFile(stateFile());
-    if (!halo_.any(isHere))
+    throw std::runtime_error("restart: flotsamState.h5 of time " + runTime_.timeName() + " was written by other processes, and uniform/flotsamState.h5,"
+        " which any number of them can continue from, is missing there. Continue on the processes that wrote it, put that file back"
+        " (from the same time of processor0 or of the whole case), or remove all flotsamState.h5 of this time to start anew from its fields");
+}
+
+void RunOutput::checkStart() const
+{
+    const StateFiles::Found found = files_.find();
+    if (found == StateFiles::Found::Foreign) failForeign();
+    if (found == StateFiles::Found::Own) checkMembers(files_.readOwn());
+    if (found == StateFiles::Found::Shared) checkMembers(files_.readShared());
+    Foam::Info<< "Start at time " << runTime_.timeName() << ": " << (found == StateFiles::Found::Own ? "the stored state continues, exactly" : found == StateFiles::Found::Shared
+        ? "bodies and sums of the stored state continue, the fluid from the written fields" : "anew from the volume fields") << Foam::nl << Foam::endl;
+}
+
+bool RunOutput::readState(CoupledStep& step, const FoamFields& fields)
+{
+    switch (files_.find())
     {
-        if (halo_.any(Foam::isFile(runTime_.timePath()/"pointU"))) warnAnew();
-        return false;
+        case StateFiles::Found::Nothing:
+            if (halo_.any(Foam::isFile(runTime_.timePath()/"pointU"))) warnAnew();
+            return false;
+        case StateFiles::Found::Foreign: failForeign();
+        case StateFiles::Found::Own: continueOwn(step, fields); break;
+        case StateFiles::Found::Shared: continueShared(step, fields); break;
     }
-    if (halo_.any(!isHere))
-        throw std::runtime_error("restart: flotsamState.h5 is missing on some ranks at time " + runTime_.timeName()
-            + "; continue on the number of ranks that wrote it");
-    RunState state = readCheckpoint(stateFile(), std::size_t(mesh_.nNodes));
+    return true;
+}
+
+void RunOutput::continueOwn(CoupledStep& step, const FoamFields& fields)
+{
+    RunState state = files_.readOwn();
+    takeSums(state);
+    if (!fields.fit(state.flow))
+        Foam::Info<< "Warning: the volume fields of time " << runTime_.timeName() << " were changed since flotsamFoam wrote them. The changes do not count: the run"
+            << " continues its stored state.\n    To have them count, remove " << runTime_.timeName() << "/flotsamState.h5 (in parallel of every processor*).\n" << Foam::endl;
+    step.restore(std::move(state.flow), state.arrays, CoupledStep::Fields::Exact);
+    Foam::Info<< "continuing the stored state of time " << runTime_.timeName() << Foam::endl;
+}
+
+/// Solids, contact and sums as stored, the fluid from the written fields.
+void RunOutput::continueShared(CoupledStep& step, const FoamFields& fields)
+{
+    RunState state = files_.readShared();
+    takeSums(state);
+    FlowState start;
+    const bool isNodal = fields.readNodes(start);
+    if (!isNodal) fields.readStart(start);
+    start.time = state.flow.time;
+    start.step = state.flow.step;
+    step.restore(std::move(start), state.arrays, isNodal ? CoupledStep::Fields::Nodal : CoupledStep::Fields::Cells);
+    if (!isNodal) mass_.initial += step.fluid().liquidVolume() - mass_.final; // what reading the cells changes is no error of the run
+    Foam::Info<< "continuing from time " << runTime_.timeName() << " on other processes than those that wrote it: bodies, contact and sums exactly; velocity, pressure and "
+        << "phase from " << (isNodal ? "the point fields, as accurate as written (writePrecision)" : "the volume fields, as there are no point fields to them: less accurate")
+        << "; the first step is of first order in time" << Foam::endl;
+}
+
+/// Solids are stored by their numbers: another order would exchange them.
+void RunOutput::checkMembers(const RunState& state) const
+{
+    const auto stored = state.arrays.find("members");
+    if (stored == state.arrays.end() || stored->second == codesOf(members_)) return;
+    const std::vector<std::string> names = namesFrom(stored->second);
+    std::size_t first = 0;
+    while (first < names.size() && first < members_.size() && names[first] == members_[first].name) ++first;
+    const auto quoted = [](bool isThere, const std::string& name) { return isThere ? "'" + name + "'" : std::string("none"); };
+    throw std::runtime_error("restart: constant/bodies is not that of the stored state of time " + runTime_.timeName() + ", which has " + std::to_string(names.size())
+        + " structures and bodies; now there are " + std::to_string(members_.size()) + ". The first that differs was " + quoted(first < names.size(), first < names.size() ? names[first] : "")
+        + ", is " + quoted(first < members_.size(), first < members_.size() ? members_[first].name : "")
+        + ". Continue with those of the stored state; to start anew from the fields of this time, with the bodies at their places in constant/bodies, remove its"
+        " flotsamState.h5 and uniform/flotsamState.h5");
+}
+
+void RunOutput::takeSums(RunState& state)
+{
+    checkMembers(state);
     // a folder that was given another name is of that time
     if (Foam::Time::timeName(state.flow.time) != runTime_.timeName()) state.flow.time = runTime_.value();
-    mass_ = {state.scalars["initialLiquid"], state.scalars["inflow"], state.scalars["outflow"], 0};
+    mass_ = {state.scalars["initialLiquid"], state.scalars["inflow"], state.scalars["outflow"], state.scalars["liquid"]};
     steps_ = firstStep_ = long(state.scalars["steps"]);
     redistributed_ = state.scalars["redistributed"];
     timeStep_ = state.scalars["timeStep"];
+    lastStep_ = state.flow.dt;
     firstStart_ = state.scalars["firstStart"];
     largestOverlap_ = state.scalars["largestOverlap"];
     forces_.restore(state.arrays["forces"]);
-    step.restore(std::move(state.flow), state.arrays);
-    Foam::Info<< "continuing the stored state of time " << runTime_.timeName() << Foam::endl;
-    return true;
 }
 
 void RunOutput::begin(const CoupledStep& step)
 {
+    for (const BodyRecord& record : step.records()) hasLeft_.push_back(record.hasLeft);
     mass_.final = step.fluid().liquidVolume();
     if (mass_.initial == 0) mass_.initial = mass_.final;
     if (halo_.rank() == 0)
@@ -104,7 +191,7 @@ std::vector<std::pair<std::string, double>> RunOutput::scalars(double dt) const
         {"massError", massError()}, {"redistributed", redistributed_}, {"largestOverlap", largestOverlap_}};
 }
 
-void RunOutput::record(const CoupledStep& step, const StepResult& result, const std::string& limit)
+void RunOutput::record(const CoupledStep& step, const StepResult& result, const std::string& limit, const CourantNumbers& courant)
 {
     ++steps_;
     mass_.inflow += mesh_.thickness*result.transport.inflow;
@@ -134,8 +221,22 @@ void RunOutput::record(const CoupledStep& step, const StepResult& result, const 
     line.contactRepeats = result.solves - 1;
     line.massError = massError();
     line.bodiesInContact = step.bodiesInContact();
+    line.courant = courant;
     const std::string text = log_.stepLine(line);
     Foam::Info<< text.c_str() << Foam::flush;
+    reportLeavers(records);
+}
+
+void RunOutput::reportLeavers(const std::vector<BodyRecord>& records)
+{
+    hasLeft_.resize(records.size(), 0);
+    for (std::size_t s = 0; s < records.size(); ++s)
+    {
+        if (!records[s].hasLeft || hasLeft_[s]) continue;
+        hasLeft_[s] = 1;
+        const Vec3& x = records[s].pose.position;
+        Foam::Info<< "body " << members_[s].name.c_str() << " has left the mesh, its centre is at " << Foam::vector(x[0], x[1], x[2]) << ": taken out" << Foam::endl;
+    }
 }
 
 void RunOutput::countRejected(const std::string& reason, double dt)
@@ -149,20 +250,27 @@ void RunOutput::writeState(const CoupledStep& step, double timeStep)
     RunState state;
     state.flow = step.fluid().state();
     state.arrays = step.save();
+    const std::map<std::string, std::vector<double>> ofProcess = step.saveOfProcess();
+    std::vector<std::string> names;
+    for (const auto& array : ofProcess) names.push_back(array.first);
+    state.arrays.insert(ofProcess.begin(), ofProcess.end());
     state.arrays["forces"] = forces_.values();
-    state.scalars = {{"initialLiquid", mass_.initial}, {"inflow", mass_.inflow}, {"outflow", mass_.outflow},
+    state.arrays["members"] = codesOf(members_);
+    state.scalars = {{"initialLiquid", mass_.initial}, {"inflow", mass_.inflow}, {"outflow", mass_.outflow}, {"liquid", mass_.final},
         {"steps", double(steps_)}, {"redistributed", redistributed_}, {"timeStep", timeStep}, {"firstStart", firstStart_},
         {"largestOverlap", largestOverlap_}};
-    writeCheckpoint(stateFile(), state);
+    files_.write(std::move(state), names);
     if (!history_) return;
     history_->flush();
     if (!members_.empty()) history_->writeSurface(runTime_.value(), step.records());
 }
 
-void RunOutput::end(const CoupledStep&)
+void RunOutput::end(const CoupledStep& step)
 {
     if (history_) history_->flush();
     RunSummary summary;
+    summary.bodies = step.scene().nBodies();
+    summary.bodiesLeft = step.coupling() ? step.coupling()->goneCount() : 0;
     summary.steps = steps_ - firstStep_;
     summary.repeatedSteps = rejected_;
     summary.nodes = mesh_.nGlobal;

@@ -139,6 +139,8 @@ std::vector<Load> totalForces(const LiggghtsModel& model)
 
 } // namespace
 
+bool LiggghtsModel::isGoneSphere(int sphere) const { return isGone[static_cast<size_t>(multisphere->belongs_to(sphere) - 1)] != 0; }
+
 BodyArrays bodyArrays(const LiggghtsModel& model)
 {
     LAMMPS_NS::Multisphere& data = model.multisphere->data();
@@ -172,6 +174,9 @@ void insertBodies(LiggghtsModel& model, const DemSetup& setup)
     LAMMPS_NS::LAMMPS& dem = model.instance.lammps();
     markFixesAsUsed(*dem.modify);
     model.firstSphere.assign(1, 0);
+    model.isGone.assign(setup.bodies.size(), 0);
+    model.exits.resize(setup.bodies.size());
+    model.parking = setup.box;
     model.instance.guarded([&] {
         for (size_t b = 0; b < setup.bodies.size(); ++b)
         {

@@ -99,7 +99,7 @@ struct LiggghtsEngine::Implementation
         {
             const std::vector<BodyState> now = states();
             for (double t = left; t >= std::min(left, shortest); t *= 0.5)
-                if (reach.isFree(now, loads, isHeld, t))
+                if (reach.isFree(now, loads, isHeld, model.isGone, t))
                     return {t, largestStep};
         }
         return {left < 1.5 * shortest ? left : shortest, timeStep};
@@ -123,6 +123,8 @@ struct LiggghtsEngine::Implementation
         BodyState state;
         state.pose.position = asVec(b.xcm[body]);
         state.pose.orientation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+        if (model.isGone[static_cast<size_t>(body)])
+            state.pose = model.exits[static_cast<size_t>(body)];
         state.motion = {asVec(b.vcm[body]), asVec(b.omega[body])};
         state.angularMomentum = asVec(b.angmom[body]) / applied[static_cast<size_t>(body)].turn;
         return state;
@@ -253,6 +255,14 @@ void LiggghtsEngine::setHeld(const std::vector<char>& isHeld)
     placeSpheres(impl_->model);
 }
 
+void LiggghtsEngine::setGone(const std::vector<char>& isGone)
+{
+    if (isGone.size() != impl_->isHeld.size())
+        throw DemError("setGone: one flag per body is needed");
+    if (isGone != impl_->model.isGone)
+        flotsam::setGone(impl_->model, isGone);
+}
+
 void LiggghtsEngine::setStates(const std::vector<BodyState>& states)
 {
     LiggghtsModel& model = impl_->model;
@@ -261,6 +271,8 @@ void LiggghtsEngine::setStates(const std::vector<BodyState>& states)
     for (int b = 0; b < model.bodies.count; ++b)
     {
         const BodyState& state = states[static_cast<size_t>(b)];
+        if (model.isGone[static_cast<size_t>(b)])
+            continue;
         const BodyState old = impl_->stateOf(b);
         const bool hasMoved = old.pose.position != state.pose.position
                               || old.pose.orientation.coeffs() != state.pose.orientation.coeffs();

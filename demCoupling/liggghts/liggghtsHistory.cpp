@@ -206,6 +206,21 @@ void readMesh(LiggghtsModel& model, FixContactHistoryMesh& history, Reader& read
 
 } // namespace
 
+void forgetWallContacts(LiggghtsModel& model, int sphere)
+{
+    for (const WallHandle& wall : model.walls)
+        if (!wall.mesh)
+            std::fill_n(wall.history->array_atom[sphere], wall.history->size_peratom_cols, 0.0);
+    for (const MeshGroup& group : model.meshes)
+    {
+        FixContactHistoryMesh& history = *group.mesh->contactHistory();
+        const int slots = history.nneighs(sphere);
+        MeshHistoryAccess::count(history, sphere) = 0;
+        std::fill_n(MeshHistoryAccess::triangles(history, sphere), slots, -1);
+        std::fill_n(MeshHistoryAccess::springs(history, sphere), slots * history.get_dnum(), 0.0);
+    }
+}
+
 void forEachPairContact(const LiggghtsModel& model, const std::function<void(int, int, const double*, int)>& visit)
 {
     auto& pair = static_cast<LAMMPS_NS::PairGran&>(*model.instance.lammps().force->pair);

@@ -59,6 +59,10 @@ struct LiggghtsModel
     std::vector<WallHandle> walls;
     std::vector<MeshGroup> meshes;
     BodyArrays bodies;
+    std::vector<char> isGone;           ///< per body: takes part in nothing any more
+    std::vector<Pose> exits;            ///< per body that is gone: where it was
+    std::array<Vec3, 2> parking;        ///< box that holds those that are gone
+    bool isGoneSphere(int sphere) const;
     std::vector<int> firstSphere;       ///< per body, and the total: sphere of index s has LIGGGHTS tag s+1
     ContactTable contacts;
 };
@@ -100,6 +104,14 @@ size_t readHistories(LiggghtsModel& model, const std::vector<double>& data, size
 
 /// LIGGGHTS clears pages of marks for 100,000 contacts per mesh in every sub-step: after its set-up, pages no longer than one sphere may need.
 void shrinkContactPages(LiggghtsModel& model);
+
+/// Of a sphere (LIGGGHTS index) with planes and meshes.
+void forgetWallContacts(LiggghtsModel& model, int sphere);
+
+// liggghtsGone.cpp
+void excludeGone(LiggghtsModel& model);
+void setGone(LiggghtsModel& model, const std::vector<char>& isGone);
+void markGone(LiggghtsModel& model, const std::vector<char>& isGone);   ///< without moving them
 
 // liggghtsState.cpp
 DemState saveState(const LiggghtsModel& model);

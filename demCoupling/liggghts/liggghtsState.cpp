@@ -16,9 +16,9 @@ namespace flotsam
 namespace
 {
 
-constexpr double formatNumber = 2;
+constexpr double formatNumber = 3;
 constexpr size_t headerLength = 4;
-constexpr size_t bodyLength = 11 * 3 + 4;
+constexpr size_t bodyLength = 11 * 3 + 4 + 8;
 constexpr size_t wallLength = 6;
 
 std::array<double**, 11> vectorsOf(const BodyArrays& b)
@@ -29,6 +29,7 @@ std::array<double**, 11> vectorsOf(const BodyArrays& b)
 void writeBodies(LiggghtsModel& model, const double* data)
 {
     const auto vectors = vectorsOf(model.bodies);
+    std::vector<char> isGone;
     for (int b = 0; b < model.bodies.count; ++b)
     {
         for (double** v : vectors)
@@ -37,8 +38,12 @@ void writeBodies(LiggghtsModel& model, const double* data)
             data += 3;
         }
         std::copy_n(data, 4, model.bodies.quat[b]);
-        data += 4;
+        const double* exit = data + 5;
+        isGone.push_back(data[4] != 0);
+        model.exits[static_cast<size_t>(b)] = {Vec3(exit[0], exit[1], exit[2]), Eigen::Quaterniond(exit[3], exit[4], exit[5], exit[6])};
+        data += 12;
     }
+    markGone(model, isGone);
 }
 
 } // namespace
@@ -55,6 +60,11 @@ DemState saveState(const LiggghtsModel& model)
         for (double** v : vectors)
             data.insert(data.end(), v[b], v[b] + 3);
         data.insert(data.end(), model.bodies.quat[b], model.bodies.quat[b] + 4);
+        const Pose& exit = model.exits[static_cast<size_t>(b)];
+        const Eigen::Quaterniond& q = exit.orientation;
+        data.push_back(model.isGone[static_cast<size_t>(b)]);
+        data.insert(data.end(), exit.position.data(), exit.position.data() + 3);
+        data.insert(data.end(), {q.w(), q.x(), q.y(), q.z()});
     }
     for (const Load& load : model.tally->wallsNow())
     {

@@ -113,15 +113,18 @@ bool ReachCheck::canTouch(const Moving& a, const WallDefinition& wall) const
 }
 
 bool ReachCheck::isFree(const std::vector<BodyState>& states, const std::vector<Load>& loads,
-                        const std::vector<char>& isHeld, double duration)
+                        const std::vector<char>& isHeld, const std::vector<char>& isGone, double duration)
 {
     const size_t n = bodies_.size();
     for (size_t b = 0; b < n; ++b)
-        move(b, states[b], loads[b], isHeld[b] != 0, duration);
+        if (!isGone[b])
+            move(b, states[b], loads[b], isHeld[b] != 0, duration);
     for (size_t b = 0; b < n; ++b)
     {
+        if (isGone[b])
+            continue;
         for (size_t c = b + 1; c < n; ++c)
-            if (!(isHeld[b] && isHeld[c]) && canTouch(moving_[b], moving_[c]))
+            if (!isGone[c] && !(isHeld[b] && isHeld[c]) && canTouch(moving_[b], moving_[c]))
                 return false;
         if (isHeld[b])
             continue;

@@ -13,9 +13,9 @@ public:
     ReachCheck(const std::vector<BodyDefinition>& bodies, const std::vector<WallDefinition>& walls);
 
     /// True when no free body can touch another body or a wall within `duration` [s] under constant loads.
-    /// Errs on the safe side only. `isHeld` bodies stay where they are.
+    /// Errs on the safe side only. `isHeld` bodies stay where they are, `isGone` ones touch nothing.
     bool isFree(const std::vector<BodyState>& states, const std::vector<Load>& loads, const std::vector<char>& isHeld,
-                double duration);
+                const std::vector<char>& isGone, double duration);
 
 private:
     struct Moving

@@ -67,6 +67,12 @@ struct TimeControls
     double maxBodyCo = 0.5;         ///< of the bodies' surfaces
     double maxDeltaT = 1e30;        ///< [s]
     double minDeltaT = 1e-9;        ///< a step that would need less ends the run
+
+    bool operator==(const TimeControls& o) const
+    {
+        return adjustTimeStep == o.adjustTimeStep && deltaT == o.deltaT && maxCo == o.maxCo && maxBodyCo == o.maxBodyCo && maxDeltaT == o.maxDeltaT
+            && minDeltaT == o.minDeltaT;
+    }
 };
 
 } // namespace flotsam

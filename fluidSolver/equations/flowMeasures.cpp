@@ -21,23 +21,42 @@ double squaredSpeed(const SimplexMesh& mesh, const FlowState& state, int node)
     return square;
 }
 
+struct CourantSums
+{
+    double largest = 0, ofVolume[2] = {0, 0};   // of volume times rate, of volume
+};
+
+/// Over this rank's elements. In every step: the number of corners is known to the compiler.
+template<int dim>
+CourantSums courantSums(const SimplexMesh& mesh, const Cover* cover, const FlowState& state)
+{
+    CourantSums sums;
+    for (int e = 0; e < mesh.nElements; ++e)
+    {
+        if (!mesh.isOwnedElement[e] || (cover && cover->state[e] == ElementState::Solid)) continue;
+        const int* nodes = &mesh.elements[std::size_t(e)*(dim + 1)];
+        double u[dim] = {}, square = 0, alpha = 0;
+        for (int a = 0; a <= dim; ++a)
+        {
+            alpha = std::max(alpha, state.alpha[nodes[a]]);
+            for (int d = 0; d < dim; ++d) u[d] += state.u[std::size_t(nodes[a])*dim + d]*(1.0/(dim + 1));
+        }
+        for (int d = 0; d < dim; ++d) square += u[d]*u[d];
+        const double rate = std::sqrt(square)/mesh.h[e], volume = fluidVolume(mesh, cover, e);
+        sums.largest = std::max(sums.largest, rate*(alpha < gasOnly ? gasShare : 1));
+        sums.ofVolume[0] += volume*rate;
+        sums.ofVolume[1] += volume;
+    }
+    return sums;
+}
+
 } // namespace
 
-double courantRate(const SimplexMesh& mesh, const Halo& halo, const Cover* cover, const FlowState& state)
+CourantRates courantRates(const SimplexMesh& mesh, const Halo& halo, const Cover* cover, const FlowState& state)
 {
-    const int dim = mesh.dim, n = dim + 1;
-    double largest = 0;
-    for (int e = 0; e < mesh.nInnerElements; ++e)
-    {
-        if (cover && cover->state[e] == ElementState::Solid) continue;
-        double u[3] = {0, 0, 0}, speed = 0, alpha = 0;
-        for (int a = 0; a < n; ++a) alpha = std::max(alpha, state.alpha[mesh.elements[std::size_t(e)*n + a]]);
-        for (int a = 0; a < n; ++a)
-            for (int d = 0; d < dim; ++d) u[d] += state.u[std::size_t(mesh.elements[std::size_t(e)*n + a])*dim + d]*(1.0/n);
-        for (int d = 0; d < dim; ++d) speed += u[d]*u[d];
-        largest = std::max(largest, std::sqrt(speed)/mesh.h[e]*(alpha < gasOnly ? gasShare : 1));
-    }
-    return halo.max(largest);
+    CourantSums sums = mesh.dim == 2 ? courantSums<2>(mesh, cover, state) : courantSums<3>(mesh, cover, state);
+    halo.sum(sums.ofVolume, 2);
+    return {sums.ofVolume[1] > 0 ? sums.ofVolume[0]/sums.ofVolume[1] : 0, halo.max(sums.largest)};
 }
 
 double longestWay(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& width, const FlowState& state)

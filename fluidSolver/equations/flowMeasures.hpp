@@ -15,9 +15,13 @@ namespace flotsam
 
 constexpr double gasOnly = 0.01;    ///< largest alpha that counts as gas alone
 
-/// Largest |u|/h over the active elements [1/s]; of it a quarter in elements of gas alone: the implicit scheme is stable, and the gas is
-/// not what is asked for.
-double courantRate(const SimplexMesh& mesh, const Halo& halo, const Cover* cover, const FlowState& state);
+/// |u|/h over the active elements [1/s].
+struct CourantRates
+{
+    double mean = 0;    ///< over the fluid's volume
+    double largest = 0; ///< a quarter of it in elements of gas alone: the implicit scheme is stable, and the gas is not what is asked for
+};
+CourantRates courantRates(const SimplexMesh& mesh, const Halo& halo, const Cover* cover, const FlowState& state);
 
 /// Largest way of a node with liquid in the last time step, in widths (one per node [m]).
 double longestWay(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& width, const FlowState& state);

@@ -61,8 +61,8 @@ public:
         return flotsam::wetFractions(mesh_, halo_, cover_, solids_ ? solids_->size() : 0, state_.alpha);
     }
 
-    /// Largest |u|/h over the active elements, a quarter of it in pure gas [1/s]. Collective.
-    double courantRate() const { return flotsam::courantRate(mesh_, halo_, cover_, state_); }
+    /// Mean and largest |u|/h over the active elements [1/s]. Collective.
+    CourantRates courantRates() const { return flotsam::courantRates(mesh_, halo_, cover_, state_); }
 
     /// The fastest place, for messages: "|u| = 12 m/s at (0.1 0.2 0), alpha 0.01". Collective.
     std::string describeFastest() const { return flotsam::describeFastest(mesh_, halo_, state_); }

@@ -47,13 +47,6 @@ std::string fluidLine(const CaseControls& controls)
                         : text("one, rho ", f.rhoLiquid, " mu ", f.muLiquid, " (no phase field)");
 }
 
-std::string timeLine(const TimeControls& time)
-{
-    if (!time.adjustTimeStep) return text("fixed, ", time.deltaT, " s");
-    return text("adaptive, from ", time.deltaT, " s; maxCo ", time.maxCo, ", bodies ", time.maxBodyCo,
-        time.maxDeltaT < 1e29 ? text(", at most ", time.maxDeltaT, " s") : "");
-}
-
 std::string bodiesLine(const SceneCounts& scene)
 {
     if (scene.bodies == 0) return "none (DEM engine not opened)";
@@ -76,7 +69,25 @@ void printCost(const MeshCounts& counts, const SimplexMesh& mesh, const SceneCou
     line("time per step", text("about ", std::round(seconds*1000)/1000, " s (estimate for one core per rank)"));
 }
 
+/// What is no error, but seldom meant; empty: nothing.
+std::string gravityWarning(const FluidProperties& fluid, const SimplexMesh& mesh)
+{
+    const auto& g = fluid.gravity;
+    const double all = std::hypot(g[0], g[1], g[2]), across = mesh.dim == 2 ? std::abs(g[mesh.axes[2]]) : 0;
+    if (all == 0) return fluid.isTwoPhase ? "constant/g is (0 0 0): nothing keeps the lighter fluid above" : "";
+    if (across > 1e-6*all)
+        return text("gravity acts along ", "xyz"[mesh.axes[2]], ", across this 2D mesh: that part does nothing. Give constant/g in the plane of the mesh");
+    return "";
+}
+
 } // namespace
+
+std::string describe(const TimeControls& time)
+{
+    if (!time.adjustTimeStep) return text("fixed, ", time.deltaT, " s");
+    return text("adaptive, from ", time.deltaT, " s; maxCo ", time.maxCo, ", bodies ", time.maxBodyCo,
+        time.maxDeltaT < 1e29 ? text(", at most ", time.maxDeltaT, " s") : "");
+}
 
 void printCaseCheck(const CaseControls& controls, const MeshAdapter& adapter, const Halo& halo, const std::vector<BoundaryPatch>& boundary,
     const SceneCounts& scene, const CostModel& cost)
@@ -89,9 +100,11 @@ void printCaseCheck(const CaseControls& controls, const MeshAdapter& adapter, co
     line("fluids", fluidLine(controls));
     const auto& g = controls.fluid.gravity;
     line("gravity", text("(", g[0], " ", g[1], " ", g[2], ") m/s^2"));
+    const std::string gravity = gravityWarning(controls.fluid, mesh);
+    if (!gravity.empty()) line("warning", gravity);
     line("structures", structuresLine(scene));
     line("bodies", bodiesLine(scene));
-    line("time step", timeLine(controls.time));
+    line("time step", describe(controls.time));
     for (const auto& patch : boundary) line("patch", describe(patch));
     const bool hasLevel = std::any_of(boundary.begin(), boundary.end(), [](const BoundaryPatch& b) { return b.pressure != BoundaryPatch::Pressure::Natural; });
     if (!hasLevel) line("pressure level", text("none prescribed: in every basin mean in the gas (without gas: of all) pRefValue ", controls.fluid.pRefValue));

@@ -203,7 +203,26 @@ double readReferencePressure(const Foam::dictionary& fvSolution)
     return 0;
 }
 
+/// What OpenFOAM or function objects read is left alone; an entry of ours, or one near it, must not go unnoticed for a slip of the pen.
+void warnMisspelt(const Foam::dictionary& dict, const std::string& file, const std::vector<std::string>& known)
+{
+    for (const auto& [found, meant] : misspeltEntries(dict, known))
+        Foam::Info << "Warning: " << file.c_str() << ": nothing reads entry '" << found.c_str() << "'. Did you mean: " << meant.c_str() << " ?" << Foam::nl;
+}
+
 } // namespace
+
+std::vector<std::string> controlDictEntries()
+{
+    return {"adjustTimeStep", "maxCo", "maxAlphaCo", "maxBodyCo", "maxDeltaT", "minDeltaT",
+        // OpenFOAM's
+        "application", "startFrom", "startTime", "stopAt", "endTime", "beginTime", "deltaT", "writeControl", "writeInterval", "purgeWrite", "writeFormat",
+        "writePrecision", "writeCompression", "writeVersion", "graphFormat", "timeFormat", "timePrecision", "runTimeModifiable", "secondaryWriteControl",
+        "secondaryWriteInterval", "libs", "functions", "fileHandler", "profiling", "DebugSwitches", "InfoSwitches", "OptimisationSwitches",
+        "DimensionedConstants", "DimensionSets",
+        // other solvers': interFoam's relatives
+        "maxDi", "maxAcousticCo", "maxFo"};
+}
 
 void checkUnused(const std::string& file, const Foam::dictionary& dict)
 {
@@ -273,6 +292,8 @@ CaseControls readCaseControls(const Foam::Time& runTime)
     readGravity(runTime, controls);
     checkOtherModels(runTime);
     const Foam::IOdictionary fvSolution(inputFile(runTime, "fvSolution", runTime.system()));
+    warnMisspelt(fvSolution, "system/fvSolution", {"flotsam", "solvers", "PIMPLE", "PISO", "SIMPLE", "relaxationFactors", "cache", "potentialFlow", "residualControl"});
+    warnMisspelt(runTime.controlDict(), "system/controlDict", controlDictEntries());
     controls.numerics = readNumerics(fvSolution);
     controls.fluid.pRefValue = readReferencePressure(fvSolution);
     controls.time = readTimeControls(runTime.controlDict());

@@ -99,6 +99,28 @@ void checkKeywords(const Foam::dictionary& dict, const std::vector<std::string>&
     }
 }
 
+std::vector<std::pair<std::string, std::string>> misspeltEntries(const Foam::dictionary& dict, const std::vector<std::string>& known)
+{
+    constexpr std::size_t shortWord = 6;
+    std::vector<std::string> missing;
+    for (const std::string& word : known)
+        if (!dict.found(word, Foam::keyType::LITERAL)) missing.push_back(word);
+    std::vector<std::pair<std::string, std::string>> result;
+    for (const Foam::entry& e : dict)
+    {
+        const std::string keyword(e.keyword());
+        if (e.keyword().isPattern() || keyword == "FoamFile" || std::find(known.begin(), known.end(), keyword) != known.end()) continue;
+        for (const std::string& word : nearestWords(keyword, missing))
+        {
+            const bool isPart = word.size() >= shortWord && keyword.find(word) != std::string::npos;
+            if (!isPart && editDistance(keyword, word) > (keyword.size() < shortWord ? 1 : 2)) continue;
+            result.emplace_back(keyword, word);
+            break;
+        }
+    }
+    return result;
+}
+
 void checkRange(const Foam::dictionary& dict, const std::string& keyword, double value, const Range& range, const std::string& hint)
 {
     if (!range.contains(value))

@@ -40,9 +40,10 @@ constexpr Series allSeries[] = {
     {"contactForce", 3, "N", "of bodies and walls on the member, space frame"},
     {"contactMoment", 3, "N m", "of bodies and walls about the origin, space frame"},
     {"contacts", 1, "1", "number of touching partners"},
-    {"wetFraction", 1, "1", "liquid share of the surface"}};
+    {"wetFraction", 1, "1", "liquid share of the surface"},
+    {"left", 1, "1", "1: has left the mesh and was taken out, rests where it left"}};
 
-constexpr std::size_t recordSize = 27;
+constexpr std::size_t recordSize = 28;
 constexpr std::size_t chunkRows = 256;      ///< rows a dataset grows by in the file
 constexpr std::size_t maxBufferedRows = 64;
 constexpr double maxBufferedSeconds = 1;
@@ -59,7 +60,7 @@ void pack(const BodyRecord& r, std::vector<double>& out)
     put(r.fluidMoment);
     put(r.contactForce);
     put(r.contactMoment);
-    out.insert(out.end(), {double(r.contacts), r.wetFraction});
+    out.insert(out.end(), {double(r.contacts), r.wetFraction, r.hasLeft ? 1.0 : 0.0});
 }
 
 std::string groupOf(const HistoryMember& member)

@@ -21,6 +21,7 @@ struct BodyRecord
     Vec3 contactForce = Vec3::Zero(), contactMoment = Vec3::Zero();
     int contacts = 0;
     double wetFraction = 0; ///< liquid share of the surface, 0..1
+    bool hasLeft = false;   ///< the mesh, for good
 };
 
 struct HistoryMember

@@ -18,7 +18,7 @@ namespace
 {
 
 const std::string magic = "flotsam checkpoint";
-constexpr std::int64_t formatVersion = 4;
+constexpr std::int64_t formatVersion = 5;
 
 using Field = std::vector<double> FlowState::*;
 struct NamedField { const char* name; Field field; };
@@ -89,6 +89,11 @@ void writeContent(Hdf5File& out, const RunState& state)
     out.setAttribute("/", "complete", std::int64_t(1)); // last: its absence means the writer was interrupted
 }
 
+void checkReadable(const std::string& file)
+{
+    if (::access(file.c_str(), R_OK) != 0) throw std::runtime_error(file + ": cannot read the checkpoint (" + std::strerror(errno) + ")");
+}
+
 void checkHeader(const Hdf5File& in, const std::string& file)
 {
     if (!in.hasAttribute("/", "kind") || in.stringAttribute("/", "kind") != magic)
@@ -145,10 +150,7 @@ void writeCheckpoint(const std::string& file, const RunState& state)
 
 RunState readCheckpoint(const std::string& file, std::size_t nNodes)
 {
-    if (::access(file.c_str(), R_OK) != 0)
-    {
-        throw std::runtime_error(file + ": cannot read the checkpoint (" + std::strerror(errno) + ")");
-    }
+    checkReadable(file);
     Hdf5File in(file, Hdf5File::Mode::Read);
     checkHeader(in, file);
 
@@ -168,6 +170,15 @@ RunState readCheckpoint(const std::string& file, std::size_t nNodes)
         throw std::runtime_error(file + ": damaged, arrays or scalars are missing");
     }
     return state;
+}
+
+std::vector<double> readCheckpointArray(const std::string& file, const std::string& name)
+{
+    checkReadable(file);
+    Hdf5File in(file, Hdf5File::Mode::Read);
+    checkHeader(in, file);
+    const std::string path = "/arrays/" + escaped(name);
+    return in.exists(path) ? in.readArray(path) : std::vector<double>();
 }
 
 } // namespace flotsam

@@ -24,4 +24,7 @@ void writeCheckpoint(const std::string& file, const RunState& state);
 /// Throws std::runtime_error (file, what is wrong) for a missing, damaged or incomplete file, or another number of nodes.
 RunState readCheckpoint(const std::string& file, std::size_t nNodes);
 
+/// One of the arrays alone; empty where the file has none of that name. Throws as readCheckpoint().
+std::vector<double> readCheckpointArray(const std::string& file, const std::string& name);
+
 } // namespace flotsam

@@ -212,10 +212,10 @@ std::string RunLog::stepLine(const StepReport& r)
     std::string text;
     if (lines_++ % linesPerHeading == 0)
     {
-        text += "    step     time [s]    dt [s]  limit   iter rep  mass err touch |flow phas  cut  dem  out  rest %| s/step    left\n";
+        text += "    step     time [s]    dt [s]  limit   iter rep  mass err touch |  Co mean      max     body |flow phas  cut  dem  out  rest %| s/step    left\n";
     }
-    text += format("%8ld %12.6g %9.3g  %-7s %4d %3d %9.1e %5d |%4d %4d %4d %4d %4d %4d  |%7.3g %7s\n", r.step, r.time, r.dt,
-        r.limit.c_str(), r.linearIterations, r.contactRepeats, r.massError, r.bodiesInContact,
+    text += format("%8ld %12.6g %9.3g  %-7s %4d %3d %9.1e %5d |  %8.3g %8.3g %8.3g |%4d %4d %4d %4d %4d %4d  |%7.3g %7s\n", r.step, r.time, r.dt,
+        r.limit.c_str(), r.linearIterations, r.contactRepeats, r.massError, r.bodiesInContact, r.courant.mean, r.courant.largest, r.courant.bodies,
         share({Phase::FlowAssembly, Phase::FlowSolve}), share({Phase::PhaseField}), share({Phase::Cut}),
         share({Phase::Dem, Phase::Exchange}), share({Phase::Output}), share({Phase::Other}), total,
         clockText(timeLeft_).c_str());
@@ -244,6 +244,7 @@ std::string RunLog::summary(const RunSummary& s)
         text += "\n  counted in this run (0 is good)\n";
         for (const auto& a : s.anomalies) text += format("  %-40s %12lld\n", a.first.c_str(), a.second);
     }
+    if (s.bodiesLeft > 0) text += format("\n  %d of %d bodies have left the mesh\n", s.bodiesLeft, s.bodies);
     text += "\n  liquid volume [m^3]\n";
     text += format("  at the start %.8g, in %.8g, out %.8g, at the end %.8g\n", s.mass.initial, s.mass.inflow, s.mass.outflow,
         s.mass.final);

@@ -54,6 +54,15 @@ private:
     PhaseTimers& timers_;
 };
 
+/// Courant numbers of a step with the velocities at its start.
+struct CourantNumbers
+{
+    double mean = 0, largest = 0;   ///< |u| dt/h of the flow; the largest as it counts for maxCo
+    double bodies = 0;              ///< as it counts for maxBodyCo
+
+    CourantNumbers operator*(double factor) const { return {factor*mean, factor*largest, factor*bodies}; }
+};
+
 /// One accepted step.
 struct StepReport
 {
@@ -64,6 +73,7 @@ struct StepReport
     int contactRepeats = 0;
     double massError = 0;           ///< relative to the liquid in the domain, since the start
     int bodiesInContact = 0;
+    CourantNumbers courant;
 };
 
 /// Forces on one structure member [N], space frame; means over the run's time.
@@ -104,6 +114,7 @@ struct RunSummary
     long steps = 0, repeatedSteps = 0;
     long long nodes = 0;                                    ///< of the whole mesh
     int ranks = 1;
+    int bodies = 0, bodiesLeft = 0;                         ///< bodiesLeft: that have left the mesh since the start
     std::vector<std::pair<std::string, long long>> anomalies; ///< counted: "clipped alpha", "rejected steps", ...
     MassBalance mass;
     double unbalancedVolume = 0;                            ///< swept in basins without a prescribed pressure beyond what these can give [m^3]

@@ -52,6 +52,26 @@ refused openStl 'mkdir -p constant/triSurface
     open.stl
 refused twoShort 'sed -i "s/size (0.02 0.02 0.05)/size (0.02 0.02 0.03)/" constant/bodies' bar 'front to back'
 
+rm -rf pen && cp -r good pen
+(cd pen && sed -i "s/^maxBodyCo/maxBodyCO/" system/controlDict && sed -i 's/^flotsam/flotsm/' system/fvSolution && quietly flotsamFoam -dry-run \
+    && grep -q "entry 'maxBodyCO'. Did you mean: maxBodyCo" log.flotsamFoam && grep -q "entry 'flotsm'. Did you mean: flotsam" log.flotsamFoam) || fail "slips of the pen are not mentioned"
+grep -q 'Did you mean' good/log.flotsamFoam && fail "a warning in a good case"
+
+# not of a dictionary: processes without -parallel, and a state of other bodies
+(cd good && mpirun -np 2 flotsamFoam -dry-run) > alone.log 2>&1 && fail "processes without -parallel are accepted"
+grep -q 'without the option -parallel' alone.log || fail "processes without -parallel: no word"
+rm -rf other && cp -r good other
+fixedSteps other 0.001 0.002 2
+(cd other && quietly flotsamFoam && sed -i 's/^    bar$/    log/' constant/bodies) || exit
+setEntry other/system/controlDict endTime 0.004
+(cd other && sed 's/    log$/    bar/' constant/bodies > same && cp constant/bodies now && cp same constant/bodies && quietly flotsamFoam -dry-run && cp now constant/bodies) || exit
+grep -q 'Start at time 0.002: the stored state continues, exactly' other/log.flotsamFoam || fail "the dry run does not say what it starts from"
+(cd other && flotsamFoam -dry-run) > /dev/null 2>&1 && fail "the dry run accepts a state of other bodies"
+(cd other && flotsamFoam) > other.log 2>&1 && fail "a state of other bodies is accepted"
+grep -q "differs was 'bar', is 'log'" other.log || fail "a state of other bodies: no word"
+rm -rf misnamed && cp -r good misnamed && mv misnamed/constant/bodies misnamed/constant/bodiesDict
+(cd misnamed && quietly flotsamFoam -dry-run && grep -q 'constant/bodiesDict is not read' log.flotsamFoam) || fail "a misnamed constant/bodies is not mentioned"
+
 rm -rf beside && cp -r good beside
 echo 'structures { pier { shape { type cylinder; end1 (5 0 0); end2 (5 0 0.05); radius 0.01; } } }' >> beside/constant/bodies
 (cd beside && quietly flotsamFoam -dry-run && grep -q 'structure pier lies outside of the mesh' log.flotsamFoam) || fail "a structure beside the mesh is not mentioned"

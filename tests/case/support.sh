@@ -48,6 +48,39 @@ makeFallingSphere() {
     (cd "$1" && quietly blockMesh) || exit
 }
 
+# makeJam CASE: three bars that the water presses against the pipes of a short flume; the third is let go above the others
+makeJam() {
+    makeCase slitDam "$1"
+    sed -i -e 's/^upstream .*/upstream 0.32;/' -e 's/^downstream .*/downstream 0.1;/' \
+        -e 's/^quick .*/quick { drift 5; approach 4; slit 7; outlet 3; nx 19; ny 14; bed 3; surface 8; air 2; nz 13; }/' "$1/system/parameters"
+    sed -i '/^#ifeq/,$d' "$1/constant/bodies"
+    cat >> "$1/constant/bodies" << 'EOF'
+bodies
+{
+    bar
+    {
+        shape       { type box; size (0.02 0.2 0.02); }
+        density     590;
+        material    wood;
+        velocity    (0.5 0 0);
+        poses
+        (
+            { position (-0.0225 0 0.167); }
+            { position (-0.046 0.01 0.166); orientation { axis (0 0 1); angleDeg 1; } }
+            { position (-0.05 -0.01 0.189); orientation { axis (0 0 1); angleDeg 10; } velocity (0.3 0 -0.3); releaseTime 0.01; }
+        );
+    }
+}
+EOF
+    for tool in blockMesh setExprFields setExprBoundaryFields; do (cd "$1" && quietly $tool) || exit; done
+    sed -i -e 's/^writeInterval .*/writeInterval 0.01;/' -e 's/^maxDeltaT .*/maxDeltaT 0.004;/' "$1/system/controlDict" # 2.5 steps: round-off makes it two or three
+}
+
+# solve RANKS: the case in this folder
+solve() {
+    if [ "$1" = 1 ]; then quietly flotsamFoam; else quietly mpirun -np "$1" flotsamFoam -parallel; fi
+}
+
 # fixedSteps CASE DT END WRITE: the same steps whatever happens
 fixedSteps() {
     setEntry "$1/system/controlDict" adjustTimeStep no

@@ -97,6 +97,9 @@ TEST_CASE("a checkpoint gives back every bit")
     CHECK(read.scalars == written.scalars);
     CHECK(!std::filesystem::exists(file + ".tmp"));
 
+    CHECK(readCheckpointArray(file, "dem/history") == written.arrays.at("dem/history"));
+    CHECK(readCheckpointArray(file, "no such array").empty());
+
     writeCheckpoint(file, written); // replaces the older one
     CHECK(complaint(file).empty());
 }

@@ -122,3 +122,77 @@ TEST_CASE("every rank gets the same bits")
     MPI_Bcast(first.data(), static_cast<int>(first.size()), MPI_DOUBLE, 0, MPI_COMM_WORLD);
     CHECK(mine == first);
 }
+
+TEST_CASE("bodies that are gone touch nothing; the others go on, to the same bits from a stored state as well")
+{
+    for (const bool hasMeshes : {false, true})
+    {
+        CAPTURE(hasMeshes);
+        const DemSetup setup = heap(6, hasMeshes);
+        std::vector<char> gone(6, 0);
+        LiggghtsEngine engine(setup);
+        engine.setLoads(weights(setup));
+        advance(engine, 100, 2e-3);
+        const auto touches = [&](int body) // in the present contacts
+        {
+            for (const Contact& c : engine.contacts())
+                if (c.body == body || c.other == body)
+                    return true;
+            return false;
+        };
+        int lowest = 0;
+        while (lowest < 6 && !touches(lowest))
+            ++lowest;
+        REQUIRE(lowest < 6);
+        gone[static_cast<size_t>(lowest)] = 1;
+        const Vec3 place = engine.states()[static_cast<size_t>(lowest)].pose.position;
+        engine.setHeld(gone);
+        engine.setGone(gone);
+        CHECK(!touches(lowest));
+        const DemState state = engine.save();
+        advance(engine, 100, 2e-3);
+        CHECK(!touches(lowest));
+        CHECK(engine.meanContactLoads()[static_cast<size_t>(lowest)].isZero());
+        CHECK(engine.states()[static_cast<size_t>(lowest)].pose.position == place);
+        REQUIRE(engine.hasContact());
+        const auto first = numbersOf(engine);
+
+        LiggghtsEngine other(setup);
+        other.setHeld(gone);
+        other.restore(state);
+        other.setLoads(weights(setup));
+        advance(other, 100, 2e-3);
+        CHECK(numbersOf(other) == first);
+    }
+}
+
+TEST_CASE("any number of bodies may be gone at one place; what falls there falls freely, and on a wall as if they were not there")
+{
+    std::vector<BodyDefinition> bars(300, debris(Vec3(0.5, 0.5, 0.02)));
+    for (size_t b = 0; b < bars.size(); ++b)
+        bars[b].name = "bar" + std::to_string(b);
+    std::vector<char> gone(bars.size(), 1);
+    gone[0] = 0;
+    bars[0].pose.position.z() = 0.1;
+    for (size_t b = 1; b < bars.size(); ++b) // apart at the start
+        bars[b].pose.position = Vec3(0.5 + 0.3 * static_cast<double>(b % 20), 1 + 0.1 * static_cast<double>(b / 20), 0.5);
+    const DemSetup setup = scene(bars, {plane(Vec3::Zero(), Vec3::UnitZ())});
+    LiggghtsEngine engine(setup), alone(scene({bars[0]}, setup.walls));
+    std::vector<BodyState> states = engine.states();
+    for (size_t b = 1; b < states.size(); ++b)
+        states[b].pose.position = Vec3(0.5, 0.5, 0.02);
+    engine.setStates(states);
+    engine.setHeld(gone);
+    engine.setGone(gone);
+    CHECK(engine.states()[7].pose.position == states[7].pose.position);
+    engine.setLoads(weights(setup));
+    alone.setLoads({weights(setup)[0]});
+    for (int k = 0; k < 100; ++k)
+    {
+        engine.advance(2e-3);
+        alone.advance(2e-3);
+    }
+    CHECK(engine.contacts().size() == 1);
+    CHECK((engine.states()[0].pose.position - alone.states()[0].pose.position).norm() < 1e-9);
+    CHECK(engine.subSteps() == alone.subSteps());
+}

@@ -2,6 +2,7 @@
 /// constant/bodies: shapes, mass and inertia, members, placement, walls, and one message for every mistake.
 #include "demCoupling/foam/bodiesReader.H"
 #include "demCoupling/foam/bodyPlacement.hpp"
+#include "demCoupling/foam/structureChecks.H"
 #include "foam/controlsReader.H"
 #include "support/foamCase.H"
 
@@ -223,6 +224,26 @@ TEST_CASE("gaps of placed shapes")
     const Pose through{Vec3(0, 0, 0.08), crossed.orientation};
     CHECK(gap({"", box, {}}, {"", box, through}, 1) == doctest::Approx(-0.02));
     CHECK(gap({"", box, {}}, {"", box, {Vec3(9, 0, 0), {1, 0, 0, 0}}}, 0.5) == 0.5);
+}
+
+TEST_CASE("structures that overlap, touch, or lie in others")
+{
+    Scene s;
+    const auto overlaps = [&](const std::string& contents) { return findOverlaps(s.read("structures { " + contents + " }").structures, SceneFrame()); };
+    const std::string pier = "pier { shape { type cylinder; end1 (1 0 0.2); end2 (1 1 0.2); radius 0.05; } } ";
+    const auto box = [](const std::string& name, double x, double size)
+    {
+        const std::string a = std::to_string(x), b = std::to_string(size);
+        return name + " { shape { type box; size (" + b + " " + b + " " + b + "); } position (" + a + " 0.5 0.2); } ";
+    };
+    const StructureOverlaps footing = overlaps(pier + box("footing", 1.06, 0.1));
+    CHECK(footing.overlapping == std::vector<std::pair<int, int>>{{0, 1}});
+    CHECK(footing.inside.empty());
+    CHECK(overlaps(pier + box("core", 1, 0.06)).inside == std::vector<std::pair<int, int>>{{1, 0}});
+    CHECK(overlaps(box("twin", 1, 0.06) + box("other", 1, 0.06)).inside == std::vector<std::pair<int, int>>{{1, 0}});
+    const StructureOverlaps wall = overlaps(box("a", 1, 0.25) + box("b", 1.25, 0.25) + box("far", 1.9, 0.1));
+    CHECK(wall.overlapping.empty()); // they touch
+    CHECK(wall.inside.empty());
 }
 
 TEST_CASE("prescribed motions: the velocity is the derivative of the pose")

@@ -15,7 +15,7 @@ using namespace flotsam;
 TEST_CASE("report of a channel with and without bodies")
 {
     FoamCase foam("foamChannel");
-    const CaseControls controls = readCaseControls(foam.time());
+    CaseControls controls = readCaseControls(foam.time());
     const MeshAdapter adapter = makeSimplexMesh(foam.mesh(), MPI_COMM_WORLD);
     const Halo halo(adapter.mesh, MPI_COMM_WORLD);
     const auto boundary = readBoundary(foam.mesh(), adapter, halo, controls);
@@ -35,6 +35,16 @@ TEST_CASE("report of a channel with and without bodies")
     CHECK(empty.find("DEM engine not opened") != std::string::npos);
     CHECK(empty.find("floor: velocity no-slip") != std::string::npos);
     CHECK(empty.find("memory") != std::string::npos);
+    CHECK(empty.find("warning") == std::string::npos);
+    const auto g = controls.fluid.gravity;
+    controls.fluid.gravity = {0, 0, -9.81};
+    CHECK(capture(scene).find("gravity acts along z, across this 2D mesh") != std::string::npos);
+    controls.fluid.gravity = {0, 0, 0};
+    CHECK(capture(scene).find("constant/g is (0 0 0)") != std::string::npos);
+    controls.fluid.isTwoPhase = false;
+    CHECK(capture(scene).find("warning") == std::string::npos);
+    controls.fluid.isTwoPhase = true;
+    controls.fluid.gravity = g;
     scene.bodies = 20;
     scene.thinnestBody = 0.02;
     CHECK(capture(scene).find("refine around the bodies") != std::string::npos);

@@ -84,6 +84,18 @@ TEST_CASE("nearest words")
     CHECK(nearestWords("xyzzy", {"size", "radius"}).empty());
 }
 
+TEST_CASE("controlDict: what looks like a known entry that is not there is found, everything else left alone")
+{
+    const auto found = [](const std::string& dict) { return misspeltEntries(parse(dict), controlDictEntries()); };
+    using Pairs = std::vector<std::pair<std::string, std::string>>;
+    CHECK(found("maxBodyC0 0.2;") == Pairs{{"maxBodyC0", "maxBodyCo"}});
+    CHECK(found("maxbodyco 0.2;") == Pairs{{"maxbodyco", "maxBodyCo"}});
+    CHECK(found("maxBodyCourant 0.2;") == Pairs{{"maxBodyCourant", "maxBodyCo"}});
+    CHECK(found("adjustTimestep yes;") == Pairs{{"adjustTimestep", "adjustTimeStep"}});
+    CHECK(found("adjustableTimeStep yes; function { a { type probes; } }") == Pairs{{"function", "functions"}});
+    CHECK(found("deltaT 1; deltaT2 1; endTime 3; endTimeLong 4; maxDi 2; h 0.1; U0 1; co 3; \"max.*\" 1; functions { maxco { type probes; } }").empty());
+}
+
 TEST_CASE("two fluids as interFoam: the first phase is the liquid, entries with and without dimensions")
 {
     CaseControls c;

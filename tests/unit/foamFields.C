@@ -122,6 +122,29 @@ TEST_CASE("written fields keep their boundary dictionaries")
     }).empty());
 }
 
+TEST_CASE("nodal unknowns come back from the written point fields, unless the cells were changed since")
+{
+    Scene s;
+    FlowState read;
+    CHECK_FALSE(s.fields.readNodes(read)); // not written yet
+    s.setLinear();
+    s.foam.time().setTime(0.1, 10);
+    s.fields.update(s.state, nullptr, {});
+    s.foam.time().writeNow();
+    REQUIRE(s.fields.readNodes(read));
+    CHECK(read.time == 0.1);
+    const SimplexMesh& mesh = s.adapter.mesh;
+    for (int i = 0; i < mesh.nNodes; ++i)
+    {
+        for (int d = 0; d < 2; ++d) CHECK(read.u[2*i + d] == doctest::Approx(s.state.u[2*i + d]).epsilon(1e-5));
+        CHECK(std::abs(read.p[i] - s.state.p[i]) < 0.1);
+        CHECK(read.alpha[i] == 1);
+    }
+    auto& alpha = const_cast<Foam::volScalarField&>(s.scalar("alpha.water"));
+    if (s.halo.rank() == 0) alpha[0] = 0;
+    CHECK_FALSE(s.fields.readNodes(read));
+}
+
 TEST_CASE("what a patch prescribes by its values stays: a run that goes on reads it")
 {
     Scene s;

@@ -55,8 +55,9 @@ TEST_CASE("centres of spheres on the other side of a wall or in another body")
 {
     const MotionCheck check({makeCube("first"), makeCube("second")}, {makeFloor(), makeSquare()});
     const BodyState far = at(5, 0, 0);
+    const std::vector<char> none(2, 0);
     const std::vector<Load> touching(2, Load{Vec3::UnitX(), Vec3::Zero()});
-    auto passage = [&](const BodyState& before, const BodyState& after) { return check.passage({before, far}, {after, far}, touching); };
+    auto passage = [&](const BodyState& before, const BodyState& after) { return check.passage({before, far}, {after, far}, touching, none); };
     CHECK(passage(at(0.09, 0.03, 0.02), at(0.081, 0.03, 0.02)) == "");              // overlap 0.019
     CHECK(passage(at(0.09, 0.03, 0.02), at(0.079, 0.03, 0.02)) == "body 'first' passes through 'square'");
     CHECK(passage(at(-0.09, 0.03, 0.02), at(-0.079, 0.03, 0.02)) == "body 'first' passes through 'square'");
@@ -69,12 +70,12 @@ TEST_CASE("centres of spheres on the other side of a wall or in another body")
     CHECK(passage(at(2, -0.91, 0), at(2, -0.921, 0)) == "body 'first' passes through 'floor'");
 
     const BodyState other = at(3, 0, 0);
-    CHECK(check.passage({at(2.81, 0, 0), other}, {at(2.819, 0, 0), other}, touching) == "");
-    CHECK(check.passage({at(2.81, 0, 0), other}, {at(2.821, 0, 0), other}, touching) == "body 'first' passes into body 'second'");
-    CHECK(check.passage({other, at(2.81, 0, 0)}, {other, at(2.821, 0, 0)}, touching) == "body 'second' passes into body 'first'");
-    CHECK(check.passage({at(2.9, 0, 0), other}, {at(2.91, 0, 0), other}, touching) == "");     // was inside: not this step's doing
-    CHECK(check.passage({at(2.81, 0.06, 0), other}, {at(2.83, 0.06, 0), other}, touching) == "");   // between spheres, above their centres: nothing pushes inward
-    CHECK(check.passage({at(2.81, 0.06, 0), other}, {at(2.841, 0.06, 0), other}, touching) == "body 'first' passes into body 'second'");
+    CHECK(check.passage({at(2.81, 0, 0), other}, {at(2.819, 0, 0), other}, touching, none) == "");
+    CHECK(check.passage({at(2.81, 0, 0), other}, {at(2.821, 0, 0), other}, touching, none) == "body 'first' passes into body 'second'");
+    CHECK(check.passage({other, at(2.81, 0, 0)}, {other, at(2.821, 0, 0)}, touching, none) == "body 'second' passes into body 'first'");
+    CHECK(check.passage({at(2.9, 0, 0), other}, {at(2.91, 0, 0), other}, touching, none) == "");     // was inside: not this step's doing
+    CHECK(check.passage({at(2.81, 0.06, 0), other}, {at(2.83, 0.06, 0), other}, touching, none) == "");   // between spheres, above their centres: nothing pushes inward
+    CHECK(check.passage({at(2.81, 0.06, 0), other}, {at(2.841, 0.06, 0), other}, touching, none) == "body 'first' passes into body 'second'");
 }
 
 TEST_CASE("the spheres of a thin body touch a rounder one than its edges are: no passage in front of them")
@@ -82,11 +83,12 @@ TEST_CASE("the spheres of a thin body touch a rounder one than its edges are: no
     BodyDefinition chip = makeCube("chip");
     chip.spheres = {{Vec3::Zero(), 0.002}};
     const MotionCheck check({chip, makeCube("cube")}, {});
+    const std::vector<char> none(2, 0);
     const std::vector<Load> touching(2, Load{Vec3::UnitX(), Vec3::Zero()});
     const BodyState cube = at(0, 0, 0);
     auto corner = [&](double x) { return at(x, x, x); };
-    CHECK(check.passage({corner(0.101), cube}, {corner(0.0925), cube}, touching) == "");            // in the shape, but 0.002 outside the sphere
-    CHECK(check.passage({corner(0.101), cube}, {corner(0.0915), cube}, touching) == "body 'chip' passes into body 'cube'");
+    CHECK(check.passage({corner(0.101), cube}, {corner(0.0925), cube}, touching, none) == "");            // in the shape, but 0.002 outside the sphere
+    CHECK(check.passage({corner(0.101), cube}, {corner(0.0915), cube}, touching, none) == "body 'chip' passes into body 'cube'");
 }
 
 TEST_CASE("a body that contact throws faster than anything there is")

@@ -85,6 +85,7 @@ TEST_CASE("a step is one line; a heading comes every 25 lines; the time left fol
         report.linearIterations = 12;
         report.massError = -1.5e-13;
         report.bodiesInContact = 20;
+        report.courant = CourantNumbers{1.25, 2.5, 0.75}*0.1;
         { PhaseTimer t(timers, Phase::Cut); rest(1); }
         const std::string text = log.stepLine(report);
         const bool hasHeading = contains(text, "time [s]");
@@ -92,6 +93,7 @@ TEST_CASE("a step is one line; a heading comes every 25 lines; the time left fol
         CHECK(std::count(text.begin(), text.end(), '\n') == (hasHeading ? 2 : 1));
         CHECK(contains(text, "body"));
         CHECK(contains(text, "-1.5e-13"));
+        for (const char* courant : {" 0.125 ", " 0.25 ", " 0.075 "}) CHECK(contains(text, courant));
         if (i == 1)
         {
             const auto end = text.find('\n');

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "demCoupling/foam/structureChecks.H"
+
+#include "geometry/primitives.hpp"
+
+namespace flotsam
+{
+
+namespace
+{
+
+/// Surface points are made for pairs alone whose boxes meet: a shape may have a million facets.
+class Samples
+{
+public:
+    Samples(const std::vector<StructureDefinition>& structures, const SceneFrame& frame) : structures_(structures), frame_(frame), sampled_(structures.size()) {}
+
+    ShapeAtPose operator()(std::size_t s)
+    {
+        const Solid& solid = structures_[s].solid;
+        for (std::size_t other = 0; !sampled_[s] && other < sampled_.size(); ++other) // members of a group share their shape
+            if (sampled_[other] && &sampled_[other]->shape() == solid.shape.get()) sampled_[s] = sampled_[other];
+        if (!sampled_[s]) sampled_[s] = sampleShape(solid.shape, thinnestExtent(*solid.shape, frame_));
+        return {solid.name, sampled_[s], solid.pose};
+    }
+
+private:
+    const std::vector<StructureDefinition>& structures_;
+    const SceneFrame& frame_;
+    std::vector<std::shared_ptr<const SampledShape>> sampled_;
+};
+
+std::array<Vec3, 2> boundsOf(const StructureDefinition& s)
+{
+    return PlacedShape(s.solid.shape, s.solid.pose.orientation, s.solid.pose.position).bounds();
+}
+
+bool boxesMeet(const std::array<Vec3, 2>& a, const std::array<Vec3, 2>& b)
+{
+    return (a[0].array() < b[1].array()).all() && (b[0].array() < a[1].array()).all();
+}
+
+bool liesIn(const ShapeAtPose& a, const ShapeAtPose& b, double tolerance)
+{
+    for (const Vec3& p : a.shape->points())
+        if (b.distance(a.pose.orientation*p + a.pose.position) > tolerance) return false;
+    return true;
+}
+
+/// A fixed structure beside the mesh does nothing: most likely a wrong place, axis or scale.
+void warnOutside(const BodiesInput& input)
+{
+    for (const StructureDefinition& s : input.structures)
+    {
+        const auto [lower, upper] = boundsOf(s);
+        if (s.motion || boxesMeet({lower, upper}, input.box)) continue;
+        Foam::Info<< "Warning: structure " << s.solid.name.c_str() << " lies outside of the mesh, it does nothing: from "
+            << Foam::vector(lower[0], lower[1], lower[2]) << " to " << Foam::vector(upper[0], upper[1], upper[2]) << Foam::nl;
+    }
+}
+
+} // namespace
+
+StructureOverlaps findOverlaps(const std::vector<StructureDefinition>& structures, const SceneFrame& frame)
+{
+    StructureOverlaps overlaps;
+    Samples sample(structures, frame);
+    std::vector<std::array<Vec3, 2>> boxes;
+    for (const StructureDefinition& s : structures) boxes.push_back(boundsOf(s));
+    for (int a = 0; a < int(structures.size()); ++a)
+        for (int b = a + 1; b < int(structures.size()); ++b)
+        {
+            if (!boxesMeet(boxes[a], boxes[b])) continue;
+            const ShapeAtPose first = sample(a), second = sample(b);
+            const double tolerance = 1e-3*std::min(thinnestExtent(first.shape->shape(), frame), thinnestExtent(second.shape->shape(), frame));
+            if (liesIn(second, first, tolerance)) overlaps.inside.emplace_back(b, a);
+            else if (liesIn(first, second, tolerance)) overlaps.inside.emplace_back(a, b);
+            else if (gap(first, second, 0) < -tolerance) overlaps.overlapping.emplace_back(a, b);
+        }
+    return overlaps;
+}
+
+void reportStructures(const BodiesInput& input, const SceneFrame& frame)
+{
+    if (!Foam::Pstream::master()) return;
+    warnOutside(input);
+    const StructureOverlaps overlaps = findOverlaps(input.structures, frame);
+    const auto name = [&](int s) { return input.structures[s].solid.name.c_str(); };
+    for (const auto& [inner, outer] : overlaps.inside)
+        Foam::Info<< "Warning: structure " << name(inner) << " lies inside of structure " << name(outer) << ", it does nothing" << Foam::nl;
+    if (overlaps.overlapping.empty()) return;
+    const auto& [a, b] = overlaps.overlapping.front();
+    Foam::Info<< overlaps.overlapping.size() << (overlaps.overlapping.size() == 1 ? " pair of structures overlaps: " : " pairs of structures overlap, the first: ")
+        << name(a) << " and " << name(b) << ". Together they are one solid; each gets the force on its part of the surface" << Foam::nl;
+}
+
+} // namespace flotsam

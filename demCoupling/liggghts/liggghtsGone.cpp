@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Bodies that take part in nothing any more. LIGGGHTS cannot delete one without renumbering the others: their spheres stay, in a group whose pairs
+/// are never listed, and outside of the group that the walls look at. They are spread over the box: where all lie at the place they left at, looking
+/// through the bins would cost the square of their number.
+#include "demCoupling/liggghts/liggghtsHistory.hpp"
+
+#include "atom.h"
+#include "group.h"
+#include "lammps.h"
+
+namespace flotsam
+{
+
+namespace
+{
+
+const char* const groupName = "gone";
+constexpr int everything = 1; // bit of LIGGGHTS' group "all"
+
+/// Numbers of a Halton sequence, 0..1: evenly spread, however many are taken.
+double halton(int index, int base)
+{
+    double value = 0, share = 1;
+    for (; index > 0; index /= base)
+    {
+        share /= base;
+        value += share * (index % base);
+    }
+    return value;
+}
+
+Vec3 parkingPlace(const LiggghtsModel& model, int body)
+{
+    const Vec3 share(halton(body + 1, 2), halton(body + 1, 3), halton(body + 1, 5));
+    return model.parking[0] + share.cwiseProduct(model.parking[1] - model.parking[0]);
+}
+
+} // namespace
+
+void excludeGone(LiggghtsModel& model)
+{
+    model.instance.command(std::string("group ") + groupName + " id 0"); // of no sphere: they count from 1
+    model.instance.command(std::string("neigh_modify exclude group ") + groupName + " all");
+    model.instance.command(std::string("neigh_modify exclude group ") + groupName + " " + groupName);
+}
+
+void setGone(LiggghtsModel& model, const std::vector<char>& isGone)
+{
+    const BodyArrays& bodies = model.bodies;
+    for (size_t b = 0; b < isGone.size(); ++b)
+    {
+        if (!isGone[b] || model.isGone[b])
+            continue;
+        const int body = static_cast<int>(b);
+        const double* q = bodies.quat[b];
+        model.exits[b] = {Vec3::Map(bodies.xcm[b]), Eigen::Quaterniond(q[0], q[1], q[2], q[3])};
+        setPose(model, body, {parkingPlace(model, body), model.exits[b].orientation});
+        setMotion(model, body, Motion());
+        std::copy_n(bodies.drag[b], 3, bodies.fcm[b]);
+        std::copy_n(bodies.hdTorque[b], 3, bodies.torque[b]);
+        for (int i = model.firstSphere[b]; i < model.firstSphere[b + 1]; ++i)
+            forgetWallContacts(model, i);
+    }
+    markGone(model, isGone);
+    placeSpheres(model);
+    rebuildNeighbours(model); // without the pairs of those that have gone
+}
+
+void markGone(LiggghtsModel& model, const std::vector<char>& isGone)
+{
+    const LAMMPS_NS::LAMMPS& dem = model.instance.lammps();
+    const int bit = dem.group->bitmask[dem.group->find(groupName)];
+    for (size_t b = 0; b < isGone.size(); ++b)
+        std::fill(dem.atom->mask + model.firstSphere[b], dem.atom->mask + model.firstSphere[b + 1], isGone[b] ? bit : everything);
+    model.isGone = isGone;
+}
+
+} // namespace flotsam
