@@ -197,6 +197,11 @@ double ghostWeight(const SimplexMesh& mesh, const Cover& cover, const InteriorFa
     return lack*lack;   // smooth where it vanishes: moving bodies feel no kink
 }
 
+bool hasOneDensity(const std::vector<double>& rho, const int* nodes, int n)
+{
+    return std::all_of(nodes, nodes + n, [&](int i) { return std::abs(rho[i] - rho[nodes[0]]) < 1e-6*rho[nodes[0]]; });
+}
+
 } // namespace
 
 double planeOrientation(const SimplexMesh& mesh)
@@ -336,7 +341,8 @@ void FlowEquation::assembleGhosts()
         const double mu = 0.5*(side[0].mu + side[1].mu), rho = 0.5*(side[0].rho + side[1].rho);
         const double lighter = std::min(side[0].rho, side[1].rho), weight = ghostWeight(mesh_, *step_.cover, f);
         term.velocityFactor = face.area*(controls_.ghostVelocity*mu*h + weight*controls_.ghostConvection*rho*speed*h*h);
-        term.pressureFactor = weight*face.area*controls_.ghostPressure*h*h*h*lighter*lighter
+        // at the water line all of it: it levels surfaces that would come to rest aslant beside a body
+        term.pressureFactor = (hasOneDensity(nodal_.rho, term.node, D + 2) ? weight : 1)*face.area*controls_.ghostPressure*h*h*h*lighter*lighter
             /(std::min(side[0].mu, side[1].mu) + lighter*(speed*h + h*h/step_.time.dt));
         system_.ghosts.push_back(term);
     }
