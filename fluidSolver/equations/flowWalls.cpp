@@ -339,10 +339,11 @@ void FlowEquation::assembleGhosts()
         speed = std::sqrt(speed);
         const double h = 0.5*(mesh_.h[f.element[0]] + mesh_.h[f.element[1]]);
         const double mu = 0.5*(side[0].mu + side[1].mu), rho = 0.5*(side[0].rho + side[1].rho);
-        const double lighter = std::min(side[0].rho, side[1].rho), weight = ghostWeight(mesh_, *step_.cover, f);
-        term.velocityFactor = face.area*(controls_.ghostVelocity*mu*h + weight*controls_.ghostConvection*rho*speed*h*h);
+        const double lighter = std::min(side[0].rho, side[1].rho);
         // at the water line all of it: it levels surfaces that would come to rest aslant beside a body
-        term.pressureFactor = (hasOneDensity(nodal_.rho, term.node, D + 2) ? weight : 1)*face.area*controls_.ghostPressure*h*h*h*lighter*lighter
+        const double weight = hasOneDensity(nodal_.rho, term.node, D + 2) ? ghostWeight(mesh_, *step_.cover, f) : 1;
+        term.velocityFactor = face.area*(controls_.ghostVelocity*mu*h + weight*controls_.ghostConvection*rho*speed*h*h);
+        term.pressureFactor = weight*face.area*controls_.ghostPressure*h*h*h*lighter*lighter
             /(std::min(side[0].mu, side[1].mu) + lighter*(speed*h + h*h/step_.time.dt));
         system_.ghosts.push_back(term);
     }

@@ -229,7 +229,7 @@ TEST_CASE("a bar falls into water: momentum is kept, the total energy does not r
 {
     const Account a = fallingBar(true, 0.52, 2e-3, 400);
     print("bar falls into water, sinks and lands", a);
-    CHECK(a.defect() < 2e-3*a.weight);  // measured 1.5e-3
+    CHECK(a.defect() < 2e-3*a.weight);  // measured 1.9e-3
     CHECK(a.rise < 3e-3*a.released);    // measured 1.7e-3
     CHECK(a.volumeError < 1e-12);
 }
