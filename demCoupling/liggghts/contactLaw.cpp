@@ -297,6 +297,22 @@ double contactTimeStep(const DemSetup& setup, const ContactTable& table)
     return step;
 }
 
+void compensateLag(const DemSetup& setup, double step, ContactTable& table)
+{
+    const size_t n = table.classes.size();
+    for (size_t entry = 0; entry < table.damping.size(); ++entry)
+    {
+        const ContactClass &a = table.classes[entry / n], &b = table.classes[entry % n];
+        if (a.isWall && b.isWall)
+            continue;
+        const ContactLaw& law = lawOf(setup, a.material, b.material);
+        const int together = law.perBody && law.flatRestitution ? sharedCount(a, b) : 1; // for which the restitution is made
+        const double z = together * table.damping[entry] * step / effectiveMass(a, b);
+        // c^2 / (m - c dt/2) is to be what c^2 / m was
+        table.damping[entry] /= z / 4 + std::sqrt(1 + z * z / 16);
+    }
+}
+
 int dampingLevels(const DemSetup& setup, const ContactTable& table, double step)
 {
     constexpr double margin = 2; // what is known of a body's rate is a bound from above

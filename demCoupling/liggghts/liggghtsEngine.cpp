@@ -51,6 +51,7 @@ struct LiggghtsEngine::Implementation
             setup.skin = chosenSkin(setup);
         model.contacts = makeContactTable(setup);
         timeStep = setup.timeStep > 0 ? setup.timeStep : contactTimeStep(setup, model.contacts);
+        compensateLag(setup, timeStep, model.contacts);
         model.contacts.levels = dampingLevels(setup, model.contacts, timeStep);
         writeScript(model, setup, timeStep);
         insertBodies(model, setup);
