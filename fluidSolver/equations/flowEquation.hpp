@@ -22,11 +22,7 @@ struct FreeBody
     double newLoadShare = 1;                            ///< of the step's mean fluid load: see Fluid::newLoadShare()
 };
 
-/// +1 when (axes[0], axes[1], axes[2]) of a 2D mesh is a right-handed order of x, y, z, else -1.
-double planeOrientation(const SimplexMesh& mesh);
-
-/// Motion of a solid as the system's degrees of freedom q (3 in 2D: in-plane velocity, rotation about the empty axis; 6 in 3D).
-void solidVelocity(const SimplexMesh& mesh, const Solid& solid, double* q);
+template<int D> struct FacetGroup;
 
 class FlowEquation
 {
@@ -75,6 +71,7 @@ private:
     template<int D> void addVelocity(int slot, double value);
     template<int D> void coupleToNeighbours(int i, double value);
     template<int D> void assembleWalls();
+    template<int D> void addFacetGroup(const FacetGroup<D>& group, const Solid& solid, const double* q, SolidCoupling& coupling);
     template<int D> void assembleGhosts();
     void findFilms();
     template<int D> void assembleFilms();
@@ -120,6 +117,7 @@ private:
     ViscousForce viscousForce_;
     std::vector<double> defect_;                // owned nodes: see massDefect()
     std::vector<FilmPair> films_;
+    std::vector<int> placeInSolid_;             // nNodes: in the coupling being assembled, else -1
     std::vector<double> mass_, swept_;          // owned nodes: inertia of the fluid there; what moving surfaces take from it, a half [kg/s]
     std::vector<char> carriesMass_, isOpen_;    // nodes of varying elements; nodes on open patches
     std::vector<char> isPatchPressureFixed_;    // nNodes: by a patch

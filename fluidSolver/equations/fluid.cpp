@@ -4,6 +4,7 @@
 #include "equations/gravity.hpp"
 #include "equations/initialProfile.hpp"
 #include "equations/materials.hpp"
+#include "equations/rigidCoupling.hpp"
 #include "equations/solidExtension.hpp"
 #include "equations/surfaceLevel.hpp"
 #include "geometry/meanCover.hpp"

@@ -2,6 +2,7 @@
 #include "support/budgets.hpp"
 
 #include "equations/materials.hpp"
+#include "equations/rigidCoupling.hpp"
 
 #include <algorithm>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/forcedFlow.hpp"
 
+#include "equations/rigidCoupling.hpp"
 #include "support/flowCases.hpp"
 
 #include <algorithm>

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Facets of the solids' surfaces, gathered by element, solid and direction: what the wall terms are integrated over.
+#pragma once
+
+#include "geometry/cover.hpp"
+
+#include <vector>
+
+namespace flotsam
+{
+
+/// The facets of one solid in one cut element that look the same way, integrated.
+template<int D>
+struct FacetGroup
+{
+    int element, solid, cut;
+    double normal[D], area;
+    double m1[D + 1], m2[(D + 1)*(D + 1)]; ///< int N_a, int N_a N_b
+
+    /// int N_a N_b with N_a and N_b replaced by their means.
+    double ofMeans(int a, int b) const { return m1[a]*m1[b]/area; }
+};
+
+/// In the order of the solids; of elements beyond `nInner` the owned ones alone.
+template<int D>
+std::vector<FacetGroup<D>> groupFacets(const Cover& cover, int nInner, const std::vector<char>& isOwnedElement);
+
+} // namespace flotsam

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Rigid motions of solids at the nodes, and the solids' rows and columns from the blocks of the nodes at their surface: action equals reaction.
+#pragma once
+
+#include "core/simplexMesh.hpp"
+#include "geometry/solid.hpp"
+
+namespace flotsam
+{
+
+/// +1 when (axes[0], axes[1], axes[2]) of a 2D mesh is a right-handed order of x, y, z, else -1.
+double planeOrientation(const SimplexMesh& mesh);
+
+/// Motion of a solid as the system's degrees of freedom q (3 in 2D: in-plane velocity, rotation about the empty axis; 6 in 3D).
+void solidVelocity(const SimplexMesh& mesh, const Solid& solid, double* q);
+
+/// A rigid motion of a solid at one node, by the solid's degrees of freedom (solidVelocity()).
+template<int D>
+struct RigidArm
+{
+    static constexpr int nDof = D == 2 ? 3 : 6;
+
+    double r[D];    // from the solid's position; 2D: times the plane's orientation
+
+    RigidArm() = default;
+    RigidArm(const SimplexMesh& mesh, const Solid& solid, int node)
+    {
+        const std::array<double, 3> x = mesh.spacePoint(node);
+        const double orientation = D == 2 ? planeOrientation(mesh) : 1;
+        for (int d = 0; d < D; ++d) r[d] = orientation*(x[mesh.axes[d]] - solid.pose.position[mesh.axes[d]]);
+    }
+
+    /// V + omega x r.
+    void velocity(const double* q, double* u) const
+    {
+        for (int d = 0; d < D; ++d) u[d] = q[d];
+        if constexpr (D == 2)
+        {
+            u[0] -= q[2]*r[1];
+            u[1] += q[2]*r[0];
+        }
+        else for (int d = 0; d < D; ++d) u[d] += q[3 + (d + 1) % 3]*r[(d + 2) % 3] - q[3 + (d + 2) % 3]*r[(d + 1) % 3];
+    }
+
+    /// Adds n forces and their moments to `load` (nDof*n): they do the forces' work in every rigid motion. force: component k of the j-th at [k*n + j].
+    template<int n>
+    void addLoads(const double* force, double* load) const
+    {
+        for (int k = 0; k < D*n; ++k) load[k] += force[k];
+        const auto addMoments = [&](int k, int l, double* moment)
+        {
+            for (int j = 0; j < n; ++j) moment[j] += r[k]*force[l*n + j] - r[l]*force[k*n + j];
+        };
+        if constexpr (D == 2) addMoments(0, 1, load + 2*n);
+        else for (int d = 0; d < D; ++d) addMoments((d + 1) % 3, (d + 2) % 3, load + (3 + d)*n);
+    }
+};
+
+/// What a facet group's blocks of the nodal jumps are for the solid's degrees of freedom, but for the sign that [u] = u - ubar gives.
+template<int D>
+struct RigidBlocks
+{
+    static constexpr int N = D + 1, B = D + 1, nDof = RigidArm<D>::nDof;
+
+    double column[N][nDof*B] = {};  ///< rows of the node by the solid: transposed
+    double row[N][nDof*B] = {};     ///< the solid's rows by the node
+
+    void add(int a, int b, const double* m, const RigidArm<D>* arm)
+    {
+        double transposed[D*B];
+        for (int k = 0; k < D; ++k)
+            for (int r = 0; r < B; ++r) transposed[k*B + r] = m[r*B + k];
+        arm[b].template addLoads<B>(transposed, column[a]);
+        arm[a].template addLoads<B>(m, row[b]);
+    }
+
+    void subtractColumn(int a, double* sum) const
+    {
+        for (int r = 0; r < B; ++r)
+            for (int d = 0; d < nDof; ++d) sum[r*nDof + d] -= column[a][d*B + r];
+    }
+
+    void subtractRow(int b, double* sum) const
+    {
+        for (int k = 0; k < nDof*B; ++k) sum[k] -= row[b][k];
+    }
+
+    /// Of the solid by itself; sum: nDof*nDof, row-major.
+    void addBlock(const RigidArm<D>* arm, double* sum) const
+    {
+        for (int a = 0; a < N; ++a)
+        {
+            double momentum[D*nDof];    // rows of the node
+            for (int k = 0; k < D; ++k)
+                for (int d = 0; d < nDof; ++d) momentum[k*nDof + d] = column[a][d*B + k];
+            arm[a].template addLoads<nDof>(momentum, sum);
+        }
+    }
+};
+
+} // namespace flotsam
