@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Markdown table and plot of a case: error against CPU seconds, and our time to reach a peer's error."""
 import os
+import textwrap
 
 import numpy as np
 
@@ -55,16 +56,18 @@ def _markdown(head, lines):
 
 def _allRuns(case, rows):
     head = ["solver", "N", "cells", "nodes", "steps", "CPU s", "us/point/step"]
-    head += [f"{name}{' [' + unit + ']' if unit else ''}" for name, unit in case.figures.values()] + ["commit", ""]
+    head += [f"{name}{' [' + unit + ']' if unit else ''}" for name, unit in case.figures.values()] + ["load", "commit"]
+    hasFailed = any(row["status"] != "ok" for row in rows)
     lines = []
     for row in rows:
         cpu, steps = table.number(row, "cpu"), table.number(row, "steps")
         points = table.number(row, "nodes") or table.number(row, "cells")
         pace = f"{1e6 * cpu / points / steps:.2f}" if cpu and points and steps else ""
         values = ["" if (v := table.number(row, c)) is None else f"{v:.4g}" for c in case.figures]
-        lines.append([label(row), row["N"], row.get("cells", ""), row.get("nodes", ""), row.get("steps", ""),
-                      f"{cpu:.4g}" if cpu else "", pace, *values, row["commit"], "" if row["status"] == "ok" else "FAILED: " + row["status"]])
-    return _markdown(head, lines)
+        load = table.number(row, "load")
+        lines.append([label(row), row["N"], row.get("cells", ""), row.get("nodes", ""), row.get("steps", ""), f"{cpu:.4g}" if cpu else "", pace, *values,
+                      "" if load is None else f"{load:.1f}", row["commit"]] + ["" if row["status"] == "ok" else "FAILED: " + row["status"]] * hasFailed)
+    return _markdown(head + ["failed runs"] * hasFailed, lines)
 
 
 def _comparison(case, rows, column):
@@ -89,24 +92,39 @@ def _targets(case, rows):
             value = table.number(row, column)
             if isOurs(row) and value is not None:
                 lines.append([text, f"{limit:g}", f"{label(row)} {row['N']}", f"{abs(value):.4g}", "reached" if abs(value) <= limit else "not reached"])
-    return _markdown(["target", "at most", "run", "value", ""], lines) if lines else ""
+    return _markdown(["target", "at most", "run, N", "value", "verdict"], lines) if lines else ""
+
+
+def _wrapped(text):
+    return textwrap.fill(" ".join(text.split()), 120, break_long_words=False, break_on_hyphens=False)
 
 
 def write(case, rows, results):
     """<case>.md and <case>.png."""
     if not rows:
         return
-    parts = [f"# {case.name}", case.title, _allRuns(case, rows)]
+    last = next((row for row in reversed(rows) if row["compiler"]), rows[-1])
+    command = "benchmarks/run" + (" --quick" if os.path.basename(results) == "quick" else "")
+    compiler = f"; flotsamFoam compiled by {last['compiler']}" if last["compiler"] else ""
+    parts = [f"# {case.name}", _wrapped(case.title),
+             f"Regenerate: `{command} {case.name}`;\nthis page alone, from the rows there are: `{command} --report {case.name}`.\n"
+             f"Machine: {last['machine']}{compiler}.",
+             f"![error against CPU seconds]({case.name}.png)"]
+    targets = _targets(case, rows)
+    if targets:
+        parts += ["## Targets", "A target holds for the N that it names; the other runs are shown beside it.", targets]
+    parts += ["## All runs", _wrapped("CPU s: user seconds of the solver. us/point/step: the same per node (peers: cell) and step. load: load of the machine "
+                                      "when the run started; compare times of equal load, and leave differences below 20 % alone."), _allRuns(case, rows)]
+    isFirst = True
     for column in [case.mainError, *getattr(case, "moreErrors", [])]:
         comparison = _comparison(case, rows, column)
         if comparison:
-            parts += [f"## Our CPU time to reach the peer's error: {case.figures[column][0]}", comparison]
-    targets = _targets(case, rows)
-    if targets:
-        parts += ["## Targets", targets]
-    last = next((row for row in reversed(rows) if row["compiler"]), rows[-1])
-    parts += [f"![error against CPU seconds]({case.name}.png)", f"Machine: {last['machine']}; flotsamFoam compiled by {last['compiler']}. "
-              f"`<`: our cheapest run is better already; `>`: none of our runs is as good, time of the dearest. Regenerate: `benchmarks/run {case.name}`."]
+            parts += [f"## Our CPU time to reach the peer's error: {case.figures[column][0]}"]
+            if isFirst:
+                parts += [_wrapped("`<`: our cheapest run is better already, its time is shown; `>`: none of our runs is as good, the time of the dearest is "
+                                   "shown; else interpolated between two of our runs.")]
+            parts += [comparison]
+            isFirst = False
     with open(os.path.join(results, case.name + ".md"), "w", encoding="utf-8") as out:
         out.write("\n\n".join(parts) + "\n")
     _plot(case, rows, results)

@@ -160,8 +160,10 @@ PAIRS = [
          lambda root, runs: _dam(root, runs, "keptHierarchy", 3, SIDE), _newHierarchies),
 ]
 
-NOTES = """Answers: velocity (mostly of the air, which is faster) and phase field in the cells after 25 steps. Equivalent scenes differ by more than the rule: the held
-sphere displaces air; beside a structure that may move the density is the element's mean; a layer of cells is cut into tetrahedra; inside solids: the answer is compared
-with a mesh that ends at the block, where a wall of the mesh takes the place of a cut one and the start does not fit the block; phase field: another form of its equation.
-Kernels: seconds of a call, no nodes; their counters are compared. Matrix blocks are assembled anew in every step: wherever fluid moves, all of them change.
+NOTES = """Answers: velocity (mostly of the air, which is faster) and phase field in the cells after 25 steps. Equivalent scenes
+differ by more than the rule: the held sphere displaces air; beside a structure that may move the density is the element's
+mean; a layer of cells is cut into tetrahedra; inside solids: the answer is compared with a mesh that ends at the block,
+where a wall of the mesh takes the place of a cut one and the start does not fit the block; phase field: another form of
+its equation. Kernels: seconds of a call, no nodes; their counters are compared. Matrix blocks are assembled anew in every
+step: wherever fluid moves, all of them change.
 """

@@ -26,15 +26,17 @@ def _comparison(rows):
         lines.append([ours["scene"], ours["cells"], ours["nodes"], f"{u:.2f}", f"{p:.2f}" if p else "", ours["ratio"] and f"{number(ours, 'ratio'):.2f}",
                       _shown(ours, "iterations", ".1f"), _shown(peer, "iterations", ".1f"),
                       _shown(ours, "peakMB", ".0f"), _shown(peer, "peakMB", ".0f"), _shown(ours, "startup", ".1f"), _shown(ours, "load", ".1f"), ours["commit"]])
-    return markdown(["scene", "cells", "nodes", "flotsamFoam us/node/step", "interFoam us/cell/step", "ratio", "iterations", "interFoam's", "peak MB", "interFoam's",
-                     "start and 5 steps, CPU s", "load", "commit"], lines)
+    return markdown(["scene", "cells", "nodes", "flotsamFoam us/node/step", "interFoam us/cell/step", "ratio", "flotsamFoam iterations", "interFoam iterations",
+                     "flotsamFoam peak MB", "interFoam peak MB", "start and 5 steps, CPU s", "load", "commit"], lines)
 
 
-def _phases(rows):
+def _phases(rows, isShare):
+    """us per node and step, or the same as a share of their sum [%]."""
     lines = []
     for ours, _ in _pairs(rows):
         total = sum(number(ours, p) or 0 for p in PHASES)
-        lines.append([ours["scene"], ours["nodes"], *[f"{number(ours, p) or 0:.2f} ({100 * (number(ours, p) or 0) / total:.0f} %)" for p in PHASES], f"{total:.2f}"])
+        scale, form = (100 / total, ".0f") if isShare else (1, ".2f")
+        lines.append([ours["scene"], ours["nodes"], *[format((number(ours, p) or 0) * scale, form) for p in PHASES], format(total * scale, form)])
     return markdown(["scene", "nodes", *PHASES, "sum"], lines)
 
 
@@ -71,7 +73,7 @@ def _targets(rows):
             total = sum(number(ours, p) or 0 for p in PHASES)
             add(f"cutting, share of the step, {ours['scene']}", 0.10, (number(ours, "cut") or 0) / total)
             add(f"DEM and exchange, share of the step, {ours['scene']}", 0.05, ((number(ours, "DEM") or 0) + (number(ours, "exchange") or 0)) / total)
-    return markdown(["target", "at most", "value", ""], lines) if lines else ""
+    return markdown(["target", "at most", "value", "verdict"], lines) if lines else ""
 
 
 def _plot(rows, file):
@@ -108,10 +110,13 @@ def write(rows, results):
     if not rows:
         return
     last = rows[-1]
-    parts = ["# Speed", "Processor time of one process per step of fixed length, without start-up and first steps; medians over the repeats, the solvers in "
-             "turn. Iterations: ours of the whole system, interFoam's of the pressure, three correctors together.", _comparison(rows),
-             "## Phases: processor us per node and step (share)", _phases(rows), "## Growth and memory", _growth(rows), "## Targets", _targets(rows)]
-    parts += ["![time per node and step](speed.png)", f"Machine: {last['machine']}; {last['compiler']}. Regenerate: `benchmarks/speed/run`."]
+    parts = ["# Speed", "Processor time of one process per step of fixed length, without start-up and first steps; medians over the repeats, the\n"
+             "solvers in turn. Iterations: ours of the whole system, interFoam's of the pressure, three correctors together.",
+             "Regenerate: `benchmarks/speed/run`; this page alone, from the rows there are: `benchmarks/speed/run --report`.\n"
+             f"Machine: {last['machine']}; {last['compiler']}.", "![time per node and step](speed.png)", "## Targets", _targets(rows),
+             "## A step beside interFoam's", _comparison(rows),
+             "## Phases", "Processor us per node and step:", _phases(rows, False), "Share of the step [%]:", _phases(rows, True),
+             "## Growth and memory", "Points: nodes (interFoam: cells).", _growth(rows)]
     with open(os.path.join(results, "speed.md"), "w", encoding="utf-8") as out:
         out.write("\n\n".join(part for part in parts if part) + "\n")
     _plot(rows, os.path.join(results, "speed.png"))

@@ -50,22 +50,25 @@ def _worst(rows, name):
 
 
 def write(path, rows, families, bounds):
+    passed = sum(r["verdict"] == "passed" for r in rows)
+    commits, machines = (", ".join(dict.fromkeys(r[name] for r in rows)) for name in ("commit", "machine"))
     lines = ["# Numerical stability", "",
-             "Random scenes, each judged by properties that any stable solution has. Regenerate: `benchmarks/stability/run`; "
-             "one scene again: `benchmarks/stability/run --seed S NUMBER`.",
-             "Worst figures of the scenes that ended; commit and machine of each row are in stability.csv.", "",
-             "| figure | bound | |", "|---|---|---|"]
+             f"Random scenes, each judged by properties that any stable solution has: **{passed} of {len(rows)} passed** (commit {commits}; {machines}).",
+             "Regenerate: `benchmarks/stability/run` (scenes 0 to 259), `benchmarks/stability/run --from 260` (the next 260);",
+             "one scene again: `benchmarks/stability/run --seed S NUMBER`; this page alone: `benchmarks/stability/run --report`.", "",
+             "## Bounds", "", "| figure | bound | what it is |", "|---|---|---|"]
     lines += [f"| {name} | {'' if limit is None else limit} | {text} |" for name, (limit, text) in bounds.items()]
-    lines += ["", "| family | scenes | passed | " + " | ".join(FIGURES) + " |", "|---|---|---|" + "---|" * len(FIGURES)]
+    lines += ["", "## Worst figures by family", "", "Of the scenes that ended; empty: the figure does not apply.", "",
+              "| family | scenes | passed | " + " | ".join(FIGURES) + " |", "|---|---|---|" + "---|" * len(FIGURES)]
     for family in [*families, "all"]:
         mine = [r for r in rows if family in (r["family"], "all")]
         if mine:
             passed = sum(r["verdict"] == "passed" for r in mine)
             lines.append(f"| {family} | {len(mine)} | {passed} | " + " | ".join(_worst(mine, name) for name in FIGURES) + " |")
-    lines += ["", "| seed, number | family | scene | failed | |", "|---|---|---|---|---|"]
+    lines += ["", "## Scenes that failed", "", "| seed | number | family | scene | verdict | figure or message |", "|---|---|---|---|---|---|"]
     for r in rows:
         if r["verdict"] != "passed":
             text = r["status"] if r["status"] != "ok" else ", ".join(f"{name} {r[name]}" for name in r["verdict"].split(", "))
-            lines.append(f"| {r['seed']}, {r['number']} | {r['family']} | {r['scene']} | {r['verdict']} | {text} |")
+            lines.append(f"| {r['seed']} | {r['number']} | {r['family']} | {r['scene']} | {r['verdict']} | {text} |")
     with open(path, "w", encoding="utf-8") as file:
         file.write("\n".join(lines) + "\n")

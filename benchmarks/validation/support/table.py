@@ -2,6 +2,7 @@
 """results/validation.csv, a line per compared figure, and validation.md made from it. A new run replaces its own lines."""
 import csv
 import os
+import textwrap
 
 from .compare import shown
 
@@ -63,35 +64,55 @@ def _value(text, line):
     return f"{float(text):.5g} {line['unit']}".strip() if text else ""
 
 
+def _named(line, lines):
+    """The quantity of a line; one that begins with "the same" together with the quantity of the line before."""
+    quantity = line["quantity"]
+    return f"{lines[lines.index(line) - 1]['quantity']}, {quantity.removeprefix('the same, ')}" if quantity.startswith("the same, ") else quantity
+
+
 def _summary(cases, lines):
     """Figures with a target: how many reached it on the finest run of each variant, and those that missed."""
-    table = ["| case | finest runs: targets reached | missed |", "|---|---|---|"]
+    table = ["| case | finest N | commit | targets reached | of |", "|---|---|---|---|---|"]
+    missed = ["| case | run | quantity | value or error | target |", "|---|---|---|---|---|"]
     for case in cases:
         mine = [line for line in lines if line["case"] == case.name and line["status"] == "ok"]
         finest = {v: max(int(line["N"]) for line in mine if line["variant"] == v) for v in {line["variant"] for line in mine}}
         mine = [line for line in mine if int(line["N"]) == finest[line["variant"]] and line["verdict"]]
-        missed = [f"{line['variant']} {line['quantity']} {_size(line['error'] or line['value'], line, '+')}".strip() for line in mine if line["verdict"] == "missed"]
+        bad = [line for line in mine if line["verdict"] == "missed"]
         if mine:
-            table.append(f"| {case.name} | {len(mine) - len(missed)} of {len(mine)} | {'; '.join(missed)} |")
-    return "\n".join(table)
+            sizes, commits = (", ".join(dict.fromkeys(line[name] for line in mine)) for name in ("resolution", "commit"))
+            table.append(f"| {case.name} | {sizes} | {commits} | {len(mine) - len(bad)} | {len(mine)} |")
+        for line in bad:
+            run = ", ".join(text for text in (line["variant"], line["resolution"]) if text)
+            error = _size(line["error"] or line["value"], line, "+")
+            missed.append(f"| {case.name} | {run} | {_named(line, lines)} | {error} | {_size(line['target'], line)} |")
+    return "\n".join(table) + "\n\nTargets that these runs miss:\n\n" + "\n".join(missed)
+
+
+def _wrapped(text):
+    return textwrap.fill(" ".join(text.split()), 120, break_long_words=False, break_on_hyphens=False)
 
 
 def write(path, cases, lines, command):
     """validation.md: a section per case, a line per figure."""
-    parts = ["# Validation", f"Computed figures beside published ones; default numerics in every case. Regenerate: `{command}`.\n"
-             "Error: relative where a % stands. CPU: user seconds of the solver on one core; `load` of the machine and the commit are in validation.csv.", _summary(cases, lines)]
+    parts = ["# Validation", "Computed figures beside published ones; default numerics in every case.\n"
+             f"Regenerate: `{command}`; this page alone, from the rows there are: `{command} --report`.",
+             _wrapped("Error: relative where a % stands, else in the unit shown. CPU s: user seconds of the solver on one core. commit: the program that was run; rows of "
+                      "an older commit were not repeated since. The load of the machine is in validation.csv."),
+             "## Summary", "The finest run of every variant of a case:", _summary(cases, lines)]
     for case in cases:
         mine = [line for line in lines if line["case"] == case.name]
         if not mine:
             continue
         order = {(r.variant, str(r.n)): i for i, r in enumerate(case.runs)}
         mine.sort(key=lambda line: order.get((line["variant"], line["N"]), len(order)))
-        table = ["| run | resolution | quantity | ours | published | error | target | | nodes | steps | CPU s |", "|---|---|---|---|---|---|---|---|---|---|---|"]
+        table = ["| run | resolution | quantity | ours | published | error | target | verdict | nodes | steps | CPU s | commit |",
+                 "|---|---|---|---|---|---|---|---|---|---|---|---|"]
         before = None
         for line in mine:
             key = (line["variant"], line["N"])
             head = [line["variant"], line["resolution"]] if key != before else ["", ""]
-            tail = [line["nodes"], line["steps"], f"{float(line['cpu']):.3g}" if line["cpu"] else ""] if key != before else ["", "", ""]
+            tail = [line["nodes"], line["steps"], f"{float(line['cpu']):.3g}" if line["cpu"] else "", line["commit"]] if key != before else [""] * 4
             before = key
             if line["status"] != "ok":
                 table.append(f"| {head[0]} | {head[1]} | **FAILED**: {line['status']} | | | | | | {' | '.join(tail)} |")
@@ -99,6 +120,6 @@ def write(path, cases, lines, command):
             cells = [*head, line["quantity"], _value(line["value"], line), _value(line["reference"], line), _size(line["error"], line, "+"),
                      _size(line["target"], line), line["verdict"], *tail]
             table.append("| " + " | ".join(cells) + " |")
-        parts += [f"## {case.name}", case.title, "\n".join(table)]
+        parts += [f"## {case.name}", _wrapped(case.title), "\n".join(table)]
     with open(path, "w", encoding="utf-8") as out:
         out.write("\n\n".join(parts) + "\n")
