@@ -72,6 +72,7 @@ private:
     template<int D> void coupleToNeighbours(int i, double value);
     template<int D> void assembleWalls();
     template<int D> void addFacetGroup(const FacetGroup<D>& group, const Solid& solid, const double* q, SolidCoupling& coupling);
+    template<int D> void sumSwept();
     template<int D> void assembleGhosts();
     void findFilms();
     template<int D> void assembleFilms();
@@ -119,6 +120,7 @@ private:
     std::vector<FilmPair> films_;
     std::vector<int> placeInSolid_;             // nNodes: in the coupling being assembled, else -1
     std::vector<double> mass_, swept_;          // owned nodes: inertia of the fluid there; what moving surfaces take from it, a half [kg/s]
+    std::vector<double> sweptOfCut_;            // that half at the corners of every cut element, negative where fluid appears
     std::vector<char> carriesMass_, isOpen_;    // nodes of varying elements; nodes on open patches
     std::vector<char> isPatchPressureFixed_;    // nNodes: by a patch
     double gasLevel_ = 0;                       // of the gas at rest's pressure [Pa]

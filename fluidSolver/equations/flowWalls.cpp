@@ -6,6 +6,8 @@
 #include "equations/rigidCoupling.hpp"
 #include "equations/wallTerms.hpp"
 
+#include <algorithm>
+
 namespace flotsam
 {
 
@@ -89,7 +91,7 @@ void FlowEquation::addFacetGroup(const FacetGroup<D>& group, const Solid& solid,
             for (int k = 0; k < D; ++k) m[k*(B + 1)] += swept;
             system_.matrix.add<D>(graph_.slot(nodes[a], (std::size_t(group.element)*N + a)*N + b), m);
             defect_[nodes[a]] += swept; // a moving surface's part of the mass balance
-            swept_[nodes[a]] -= swept;
+            sweptOfCut_[std::size_t(group.cut)*N + a] -= swept;
         }
         if (isRow) rigid.subtractColumn(a, &coupling.column[std::size_t(place[a])*B*nDof]);
     }
@@ -108,6 +110,7 @@ void FlowEquation::assembleWalls()
     system_.solids.resize(solids.size());
     const std::vector<FacetGroup<D>> groups = groupFacets<D>(*step_.cover, mesh_.nInnerElements, mesh_.isOwnedElement);
     placeInSolid_.resize(mesh_.nNodes, -1);
+    sweptOfCut_.assign(step_.cover->cuts.size()*(D + 1), 0.0);
     std::size_t g = 0;
     for (std::size_t s = 0; s < solids.size(); ++s)
     {
@@ -119,6 +122,21 @@ void FlowEquation::assembleWalls()
         for (; g < groups.size() && groups[g].solid == int(s); ++g) addFacetGroup<D>(groups[g], solids[s], q, coupling);
         for (int i : coupling.node) placeInSolid_[i] = -1;
     }
+    sumSwept<D>();
+}
+
+/// What elements around a node give, where fluid appears, does not make up for what is swept out of others: bodies that rock on each other open and close a
+/// gap within one node's reach, and a velocity that is linear along the gap knows the difference.
+template<int D>
+void FlowEquation::sumSwept()
+{
+    constexpr int N = D + 1;
+    for (std::size_t c = 0; c < step_.cover->cuts.size(); ++c)
+        for (int a = 0; a < N; ++a)
+        {
+            const int i = mesh_.elements[std::size_t(step_.cover->cuts[c].element)*N + a];
+            if (i < mesh_.nOwned) swept_[i] += std::max(0.0, sweptOfCut_[c*N + a]);
+        }
 }
 
 void FlowEquation::setFreeBodies(const std::vector<FreeBody>& bodies, double dt)
