@@ -5,6 +5,7 @@
 #include "core/patchFaces.hpp"
 #include "equations/faceMoments.hpp"
 #include "equations/gasRegion.hpp"
+#include "equations/rigidCoupling.hpp"
 #include "equations/shutPockets.hpp"
 #include "equations/slipNormals.hpp"
 
@@ -14,6 +15,21 @@
 
 namespace flotsam
 {
+
+namespace
+{
+
+/// The whole velocity of a node.
+NodeConstraint wholeVector(int node, int dim)
+{
+    NodeConstraint c{};
+    c.node = node;
+    c.nDirections = dim;
+    for (int d = 0; d < dim; ++d) c.direction[d][d] = 1;
+    return c;
+}
+
+} // namespace
 
 void FlowEquation::buildConstraints()
 {
@@ -42,14 +58,7 @@ void FlowEquation::buildConstraints()
         }
     }
     for (int i = 0; i < mesh_.nNodes; ++i)
-    {
-        if (!isFixed[i]) continue;
-        NodeConstraint c{};
-        c.node = i;
-        c.nDirections = dim;
-        for (int d = 0; d < dim; ++d) c.direction[d][d] = 1;
-        constraints_.push_back(c);
-    }
+        if (isFixed[i]) constraints_.push_back(wholeVector(i, dim));
     std::vector<int> isEdge(mesh_.nNodes, 0);
     for (const auto& [node, normals] : slip)
     {
@@ -61,10 +70,37 @@ void FlowEquation::buildConstraints()
     isSlipEdge_.assign(isEdge.begin(), isEdge.end());
     for (const NodeConstraint& c : constraints_)
         if (c.node < mesh_.nOwned) system_.constraints.push_back(c);
+    nPatchConstraints_ = system_.constraints.size();
     std::vector<double> flags(isPressureFixed.begin(), isPressureFixed.end());
     halo_.update(flags, 1);
     system_.isPressureFixed.assign(flags.begin(), flags.end());
     isPatchPressureFixed_ = system_.isPressureFixed;
+}
+
+/// Shut pockets are solved for nothing: see ShutPockets.
+void FlowEquation::holdPockets()
+{
+    system_.constraints.resize(nPatchConstraints_);
+    if (!step_.pockets || !step_.pockets->areAny()) return;
+    for (int i = 0; i < mesh_.nOwned; ++i)
+        if (step_.pockets->isNode(i)) system_.constraints.push_back(wholeVector(i, mesh_.dim));
+}
+
+/// Velocity of the nearest solid and pressure of the pockets' nodes. Before the patches' values, which count where a node has both.
+void FlowEquation::applyPockets(std::vector<double>& x) const
+{
+    if (!step_.pockets || !step_.pockets->areAny()) return;
+    for (int i = 0; i < mesh_.nNodes; ++i)
+    {
+        if (!step_.pockets->isNode(i)) continue;
+        double q[6], *values = &x[std::size_t(i)*(mesh_.dim + 1)];
+        values[mesh_.dim] = step_.pockets->pressure(i);
+        if (step_.cover->nearestSolid[i] < 0) continue; // beside gas that is left out
+        const Solid& solid = (*step_.solids)[step_.cover->nearestSolid[i]];
+        solidVelocity(mesh_, solid, q);
+        if (mesh_.dim == 2) RigidArm<2>(mesh_, solid, i).velocity(q, values);
+        else RigidArm<3>(mesh_, solid, i).velocity(q, values);
+    }
 }
 
 /// By patches, at the edge of gas that is left out, in shut pockets.
@@ -77,6 +113,7 @@ void FlowEquation::fixPressures()
 void FlowEquation::applyConstraints(const std::vector<PatchValues>& values, std::vector<double>& x) const
 {
     const int dim = mesh_.dim, B = dim + 1;
+    applyPockets(x);
     for (const NodeConstraint& c : constraints_)
     {
         double* u = &x[std::size_t(c.node)*B];
@@ -111,8 +148,6 @@ void FlowEquation::applyConstraints(const std::vector<PatchValues>& values, std:
         }
     }
     if (step_.gas) applyGasEdge(x);
-    for (int i = 0; step_.pockets && i < mesh_.nNodes; ++i)
-        if (step_.pockets->isNode(i)) x[std::size_t(i)*B + dim] = step_.pockets->pressure(i);
     halo_.update(x, B);
 }
 

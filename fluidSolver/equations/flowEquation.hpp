@@ -85,6 +85,8 @@ private:
     template<int D> void assembleGasEdge();
     void fixGasEdge();
     void fixPressures();
+    void holdPockets();
+    void applyPockets(std::vector<double>& x) const;
     void findPressureLevels();
     std::vector<double> levelVolumes(const std::vector<int>& level) const;
     void joinByBodies(const std::vector<char>& hasGas, std::vector<int>& level) const;
@@ -125,6 +127,7 @@ private:
     std::vector<char> isPatchPressureFixed_;    // nNodes: by a patch
     double gasLevel_ = 0;                       // of the gas at rest's pressure [Pa]
     std::vector<char> isSlipEdge_;              // nNodes: on a re-entrant edge of slip patches, see SlipNormals
+    std::size_t nPatchConstraints_ = 0;         // of the system's, the first ones; then those of shut pockets
     std::vector<NodeConstraint> constraints_;   // all local nodes; directions from the slip patches
 };
 

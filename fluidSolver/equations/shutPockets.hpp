@@ -4,6 +4,8 @@
 /// A pocket without a node that has whole elements around it, and with no node in common with fluid elsewhere, has a pressure level of its own, and nothing fixes it but the bodies around: their
 /// motion must keep the pocket's volume to the last bit, at any time step. No pocket of that size has a meaning (gaps below the mesh carry what the mesh can carry),
 /// beside structures alone there is no solution, beside bodies none that iterations find. So pockets are open to the pressure of the fluid around.
+/// That is taken through the solids and balances neither weight nor motion within the pocket: a pocket around a single node, a hundredth of an element deep, went from 0.05 to 10 m/s
+/// in a step. The fluid of a pocket therefore moves with the nearest solid.
 #pragma once
 
 #include "equations/basins.hpp"

@@ -116,6 +116,37 @@ TEST_CASE("fluid shut in a hole of an element or two: open to the pressure aroun
     }
 }
 
+TEST_CASE("fluid shut in a wall between two pressures: nothing drives it")
+{
+    Press press;
+    const double head = 2000;   // [Pa] on the left; the hole's nodes are open to one side or the other
+    press.patches.clear();
+    for (int p : {0, 1}) press.patches.push_back(makePatch(press.mesh, p, BoundaryPatch::Velocity::Open));
+    for (int p : {2, 3}) press.patches.push_back(makePatch(press.mesh, p, BoundaryPatch::Velocity::Slip));
+    const auto atRest = press.patches[0].evaluate;
+    press.patches[0].evaluate = [&](const BoundaryState& state, PatchValues& values)
+    {
+        atRest(state, values);
+        std::fill(values.pressure.begin(), values.pressure.end(), head);
+    };
+    const auto brick = [](double width, double height, double x, double y) { return makeBox(Vec3(x, y, 0), Vec3(width, height, 1)); };
+    SceneStructure wall;        // 0.3 wide; a hole of 0.06 around the node (0.5, 0.5)
+    wall.solid.shape = makeUnion({brick(0.12, 1.2, -0.09, 0), brick(0.12, 1.2, 0.09, 0), brick(0.3, 0.57, 0, -0.315), brick(0.3, 0.57, 0, 0.315)});
+    wall.solid.pose.position = Vec3(0.5, 0.5, 0.5);
+    CoupledStep run(press.mesh, press.halo, press.fluid, press.controls, press.patches, Scene({wall}, {}, Vec3::Zero()), nullptr, press.timers);
+    FlowState start = restState(press.mesh);
+    for (int i = 0; i < press.mesh.nNodes; ++i) start.p[i] = press.mesh.x[2*std::size_t(i)] < 0.5 ? head : 0;
+    run.start(start, true);
+    double fastest = 0;
+    for (int k = 0; k < 20; ++k)
+    {
+        REQUIRE(run.step(0.005).isAccepted);
+        fastest = std::max(fastest, largestSpeed(press.mesh, press.halo, run.fluid().state().u));
+    }
+    std::printf("fastest fluid %.1e m/s, at rest at first\n", fastest);
+    CHECK(fastest < 1e-4);
+}
+
 TEST_CASE("a step whose equations are not a number is not accepted")
 {
     Press press;
