@@ -28,7 +28,7 @@ struct NumericsControls
     // stabilisation (paper eq 5)
     double tauFactor = 0.25;        ///< tau of SUPG and PSPG over Tezduyar's where inertia counts
     double tauContFactor = 1;       ///< multiplies tau_cont
-    bool tauContWithTimeStep = true; ///< tau_cont = rho h^2/(12 T), T with the time step (twophase), else rho(nu + |a|h/2)
+    bool tauContWithTimeStep = true; ///< tau_cont = rho h^2/(12 T), T with the time step (docs/numerics.md), else rho (nu + |a| h/2)
     double tauContBulk = 0.1;       ///< share of the time step's rate 2/dt in that T in elements of one density, away from the liquid's surface
     bool viscousResidual = false;   ///< mu lap u in the residual of SUPG, PSPG and u'
     // embedded boundary
@@ -42,7 +42,7 @@ struct NumericsControls
     double mobility = 0;            ///< gamma over |u|max of the optional model flux
     double profileKeeping = 0.3;    ///< rate at which cells above each other come to agree about the surface, over sqrt(g/h)
     double transportCourant = 0.9;  ///< limit of dt sum(outflow)/V of a sub-step
-    double densityClip = 0.002;     ///< c of balance.md 1.1d
+    double densityClip = 0.002;     ///< of alpha at both ends: liquidShare()
     bool balancedGravity = true;    ///< false: rho_e g
     int gravityLayers = 6;          ///< rings over which interface planes are handed on
     int gasDepth = 0;               ///< rings of elements around the water in which the gas is computed; 0: everywhere
