@@ -14,8 +14,12 @@ class Basins
 public:
     Basins(const SimplexMesh& mesh, const Halo& halo) : mesh_(mesh), halo_(halo) {}
 
+    /// Elements: all nodes of an element with a fluid part, what the equations join. FluidNodes: those outside solids alone, what fluid itself joins; nodes in
+    /// solids are then in no basin.
+    enum class JoinedBy { Elements, FluidNodes };
+
     /// cover: of what is computed; null: no solids. Collective.
-    void find(const Cover* cover);
+    void find(const Cover* cover, JoinedBy joinedBy = JoinedBy::Elements);
 
     int count() const { return count_; }            ///< of all ranks
     int of(int i) const { return basin_[i]; }       ///< node i: 0..count()-1, the same on every rank; -1: no fluid there
@@ -25,7 +29,7 @@ public:
 
 private:
     int root(int i);
-    void joinLocally(const Cover* cover);
+    void joinLocally(const Cover* cover, JoinedBy joinedBy);
     void number();
 
     const SimplexMesh& mesh_;

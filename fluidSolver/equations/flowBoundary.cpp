@@ -77,6 +77,12 @@ void FlowEquation::buildConstraints()
     isPatchPressureFixed_ = system_.isPressureFixed;
 }
 
+bool FlowEquation::isOfPocket(int e) const
+{
+    const int n = mesh_.dim + 1, *nodes = &mesh_.elements[std::size_t(e)*n];
+    return step_.pockets && std::any_of(nodes, nodes + n, [&](int i) { return step_.pockets->isNode(i); });
+}
+
 /// Shut pockets are solved for nothing: see ShutPockets.
 void FlowEquation::holdPockets()
 {

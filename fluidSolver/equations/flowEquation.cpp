@@ -313,7 +313,7 @@ inline void FlowEquation::fineScaleIn(const std::vector<double>& x, std::vector<
         {
             double u[N*B], *r = &result[std::size_t(e)*D];
             std::fill(r, r + D, 0.0);
-            if (step_.pockets && step_.pockets->isNode(mesh_.elements[std::size_t(e)*N])) return; // not solved for
+            if (isOfPocket(e)) return; // not solved for
             if (!loadResidualData<D>(e, mesh_, step_, controls_, nodal_, data, source)) return;
             for (int a = 0; a < N; ++a) std::copy_n(&x[std::size_t(mesh_.elements[std::size_t(e)*N + a])*B], B, u + a*B);
             fineScaleVelocity(data, u, r);

@@ -85,6 +85,7 @@ private:
     template<int D> void assembleGasEdge();
     void fixGasEdge();
     void fixPressures();
+    bool isOfPocket(int e) const;
     void holdPockets();
     void applyPockets(std::vector<double>& x) const;
     void findPressureLevels();

@@ -220,7 +220,7 @@ void Fluid::findBasins(const Cover* cover)
     if (!cover_) return;
     std::vector<char> isFixed = equation_.isPatchPressureFixed();
     for (int i = 0; gas_ && i < mesh_.nNodes; ++i) isFixed[i] |= gas_->isEdge()[i];
-    pockets_.find(*cover, basins_, isFixed);
+    pockets_.find(*cover, isFixed);
 }
 
 void Fluid::setPocketPressures()
