@@ -35,11 +35,13 @@ CourantSums courantSums(const SimplexMesh& mesh, const Cover* cover, const FlowS
     {
         if (!mesh.isOwnedElement[e] || (cover && cover->state[e] == ElementState::Solid)) continue;
         const int* nodes = &mesh.elements[std::size_t(e)*(dim + 1)];
+        const CutElement* cut = cover && cover->state[e] == ElementState::Cut ? &cover->cuts[cover->cutIndex[e]] : nullptr;
         double u[dim] = {}, square = 0, alpha = 0;
         for (int a = 0; a <= dim; ++a)
         {
             alpha = std::max(alpha, state.alpha[nodes[a]]);
-            for (int d = 0; d < dim; ++d) u[d] += state.u[std::size_t(nodes[a])*dim + d]*(1.0/(dim + 1));
+            const double share = cut ? cut->first[a]/cut->volume : 1.0/(dim + 1);
+            for (int d = 0; d < dim; ++d) u[d] += share*state.u[std::size_t(nodes[a])*dim + d];
         }
         for (int d = 0; d < dim; ++d) square += u[d]*u[d];
         const double rate = std::sqrt(square)/mesh.h[e], volume = fluidVolume(mesh, cover, e);

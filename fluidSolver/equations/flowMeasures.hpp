@@ -15,7 +15,7 @@ namespace flotsam
 
 constexpr double gasOnly = 0.01;    ///< largest alpha that counts as gas alone
 
-/// |u|/h over the active elements [1/s].
+/// |u|/h over the active elements, u: mean over the fluid part [1/s]. (Nodes inside solids that only slivers of fluid determine may have many times the velocity of these.)
 struct CourantRates
 {
     double mean = 0;    ///< over the fluid's volume
