@@ -61,8 +61,10 @@ class SceneCase:
     def _control(self):
         s = self.scene
         largest = s.maxCo * s.h / s.speed
-        return files.control(s.endTime, s.firstStep, maxCo=s.maxCo, maxDeltaT=s.endTime / 4 if s.firstStep > largest else s.endTime / 20,
-                             writeInterval=s.endTime / WRITES, adjust=not s.fixedStep)
+        longest = s.endTime / 4 if s.firstStep > largest else s.endTime / 20
+        bodies = {"maxBodyCo": s.maxBodyCo} if s.maxBodyCo != 0.5 else {}
+        return files.control(s.endTime, s.firstStep, maxCo=s.maxCo, maxDeltaT=longest, writeInterval=s.endTime / WRITES,
+                             adjust=not s.fixedStep, **bodies)
 
     def _fields(self):
         s = self.scene
@@ -110,10 +112,10 @@ class SceneCase:
         s = self.scene
         text = ""
         if s.bodies:
+            law = s.contact or f"restitution {s.rng.uniform(0.1, 0.9):.3g}; frictionAngle {s.rng.uniform(0, 45):.3g};"
             thin = min(b.thin for b in s.bodies) * s.length
             mass = max((b.density + s.rho[0]) * b.volume for b in s.bodies) * s.length**3
-            text += (f"contact {{ default {{ stiffness {mass * (s.speed / (0.05 * thin))**2:.6g}; restitution {s.rng.uniform(0.1, 0.9):.3g}; "
-                     f"frictionAngle {s.rng.uniform(0, 45):.3g}; }} }}\n")
+            text += f"contact {{ default {{ stiffness {mass * (s.speed / (0.05 * thin))**2:.6g}; {law} }} }}\n"
         motions = [f" motion {{ {x.motion(s.length)} }}" if hasattr(x, "motion") else "" for x in s.structures]
         text += "structures\n{\n" + "".join(self._solid(x, x.entries + m) for x, m in zip(s.structures, motions)) + "}\n"
         text += "bodies\n{\n"

@@ -19,6 +19,8 @@ BOUNDS = {
     "overlap": (0.1, "deepest overlap of contact surfaces over the thinnest body"),
     "steps": (10, "time steps over those that the Courant number asks for at the speed which energy allows"),
     "rejected": (0.05, "share of steps that were repeated smaller"),
+    "fastest": (3, "jam: mean velocity of an element in any step, over that which energy allows; of gas a quarter"),
+    "collapsed": (0, "jam: steps shorter than a hundredth of the median step, other than to meet a write time"),
     "unsolved": (0.01, "share of steps whose linear solve did not converge"),
 }
 
@@ -166,4 +168,18 @@ def _log(s, folder):
         text = file.read()
     steps = int(re.search(r"Summary: (\d+) steps", text).group(1))
     count = {name: int(re.search(name + r"\s+(\d+)", text).group(1)) for name in ("rejected steps", "non-converged linear solves")}
-    return {"rejected": count["rejected steps"] / max(steps, 20), "unsolved": count["non-converged linear solves"] / max(steps, 20)}
+    ofSteps = _steps(s, text) if s.family == "jam" else {}
+    return {**ofSteps, "rejected": count["rejected steps"] / max(steps, 20), "unsolved": count["non-converged linear solves"] / max(steps, 20)}
+
+
+STEP = re.compile(r"^ +\d+ +([\d.eE+-]+) +([\d.eE+-]+) +(\w+) .*?\| +\S+ +([\d.eE+-]+) ", re.MULTILINE)
+START = 0.05        # of the time: bars that are put into moving water
+
+
+def _steps(s, text):
+    """From the line of every step: what the few written fields miss."""
+    lines = STEP.findall(text)
+    time, dt, courant = (np.array([float(line[k]) for line in lines]) for k in (0, 1, 3))
+    isChosen, isLate = np.array([line[2] != "write" for line in lines]), time > START * s.endTime
+    isShort = isChosen & (dt < 0.01 * np.median(dt))
+    return {"fastest": float((courant / dt)[isLate].max(initial=0)) * s.h / s.speed, "collapsed": int(isShort.sum())}

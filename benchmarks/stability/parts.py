@@ -28,7 +28,7 @@ class Solid:
 
 @dataclass
 class Scene:
-    number: int
+    number: object      # its name; an int in the families that take turns
     family: str
     dim: int = 2
     length: float = 1                   # width of the tank [m]
@@ -50,6 +50,9 @@ class Scene:
     bodies: list = field(default_factory=list)
     options: list = field(default_factory=list)     # entries of the dictionary flotsam
     maxCo: float = 0.5
+    maxBodyCo: float = 0.5
+    contact: str = ""   # entries of the contact law; none: drawn
+    duration: tuple = (1.5, 3)          # range of the end time [sqrt(L/g)]; 3D: 0.6 of it
     fixedStep: bool = False
     firstStep: float = 0                # [s]; 0: a tenth of what the Courant number allows
     forced: bool = False                # energy is put in

@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Random scenes. scene(seed, number) is always the same; families take turns: number modulo their count.
+"""Random scenes. scene(seed, number) is always the same; families take turns: number modulo their count. Families apart have names
+as numbers: jam0, jam1, ...
 
 Lengths of a scene are drawn in units of the tank's width and multiplied by `length` [m] once, at the end, so that also the size is random.
 """
 import math
 
+import jam
 import numpy as np
 import parts
+
 
 def tank(s):
     """Liquid at rest or tilted, gravity any way."""
@@ -184,11 +187,34 @@ def threeD(s):
 
 FAMILIES = {f.__name__: f for f in (tank, damBreak, splash, channel, thrown, deep, structures, moving, oneFluid, options, bigSteps, properties, threeD)}
 
+APART = {"jam": jam.jam}      # do not take turns: more than a minute each, and the numbers of the others stay
+
+
+def familyOf(number):
+    if isinstance(number, int):
+        return list(FAMILIES)[number % len(FAMILIES)]
+    return number.rstrip("0123456789")
+
+
+def chosen(numbers, family):
+    """Names of the scenes of a family among these numbers; without one of all that take turns."""
+    if family in APART:
+        return [f"{family}{n}" for n in numbers]
+    return [n for n in numbers if family in (None, familyOf(n))]
+
+
+def _start(seed, number):
+    """Of the random numbers."""
+    if isinstance(number, int):
+        return (seed * 1000003 + number) % 2**32
+    family = familyOf(number)
+    return [seed, 1 + list(APART).index(family), int(number[len(family):])]
+
 
 def scene(seed, number):
-    name = list(FAMILIES)[number % len(FAMILIES)]
-    s = parts.Scene(number, name, rng=np.random.RandomState((seed * 1000003 + number) % 2**32))
-    FAMILIES[name](s)
+    name = familyOf(number)
+    s = parts.Scene(number, name, rng=np.random.RandomState(_start(seed, number)))
+    {**FAMILIES, **APART}[name](s)
     _finish(s)
     return s
 
@@ -210,6 +236,6 @@ def _finish(s):
         s.speed *= 2
     if s.speed == 0:
         s.speed = 0.1 * unit
-    s.endTime = s.rng.uniform(1.5, 3) * (L / unit if s.dim == 2 else 0.6 * L / unit)
+    s.endTime = s.rng.uniform(*s.duration) * (L / unit if s.dim == 2 else 0.6 * L / unit)
     largest = s.maxCo * s.h / s.speed
     s.firstStep = s.firstStep * s.h / s.speed or 0.1 * largest

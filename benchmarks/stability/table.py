@@ -2,6 +2,7 @@
 """results/stability.csv, a row per scene, and stability.md made from it: a line per family, then what failed and how to repeat it."""
 import csv
 import os
+import re
 
 import judge
 
@@ -23,7 +24,13 @@ def screen(row):
     figures = " ".join(f"{name} {shown(row[name])}" for name in FIGURES if name in row)
     text = figures if row["status"] == "ok" else row["status"]
     verdict = row["verdict"] if row["verdict"] == "passed" else row["verdict"].upper()
-    return f"{row['number']:4d} {row['family']} ({row['scene']}): {verdict}; {row.get('cpu', 0):.1f} s; {text}"
+    return f"{row['number']!s:>5} {row['family']} ({row['scene']}): {verdict}; {row.get('cpu', 0):.1f} s; {text}"
+
+
+def _order(row):
+    """Families apart, whose scenes have names, follow the others."""
+    family, number = re.fullmatch(r"([a-zA-Z]*)(\d+)", row["number"]).groups()
+    return int(row["seed"]), family, int(number)
 
 
 def read(path):
@@ -37,7 +44,7 @@ def put(path, row):
     """Stores at once."""
     mine = (str(row["seed"]), str(row["number"]))
     rows = [r for r in read(path) if (r["seed"], r["number"]) != mine] + [{name: shown(row.get(name, "")) for name in COLUMNS}]
-    rows.sort(key=lambda r: (int(r["seed"]), int(r["number"])))
+    rows.sort(key=_order)
     with open(path, "w", newline="", encoding="utf-8") as file:
         writer = csv.DictWriter(file, COLUMNS)
         writer.writeheader()
@@ -45,7 +52,7 @@ def put(path, row):
 
 
 def _worst(rows, name):
-    values = [float(r[name]) for r in rows if r[name] and r["status"] == "ok"]
+    values = [float(r[name]) for r in rows if r.get(name) and r["status"] == "ok"]
     return f"{max(values):.2g}" if values else ""
 
 
@@ -55,6 +62,7 @@ def write(path, rows, families, bounds):
     lines = ["# Numerical stability", "",
              f"Random scenes, each judged by properties that any stable solution has: **{passed} of {len(rows)} passed** (commit {commits}; {machines}).",
              "Regenerate: `benchmarks/stability/run` (scenes 0 to 259), `benchmarks/stability/run --from 260` (the next 260);",
+             "family jam: `benchmarks/stability/run --family jam --count 20`;",
              "one scene again: `benchmarks/stability/run --seed S NUMBER`; this page alone: `benchmarks/stability/run --report`.", "",
              "## Bounds", "", "| figure | bound | what it is |", "|---|---|---|"]
     lines += [f"| {name} | {'' if limit is None else limit} | {text} |" for name, (limit, text) in bounds.items()]
