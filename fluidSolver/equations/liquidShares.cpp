@@ -188,14 +188,27 @@ private:
         }
     }
 
+    /// Place of the plane in a slab of the whole cell's thickness: where its mean is alpha.
+    double firstPlace(double alpha, double whole) const
+    {
+        double mean = 0, squares = 0;
+        for (const Share& s : shares_)
+        {
+            mean += s.volume/whole*s.middle;
+            squares += s.volume/whole*(s.middle*s.middle + s.thickness*s.thickness/12);
+        }
+        const double thickness = std::clamp(std::sqrt(12*std::max(0.0, squares - mean*mean)), thinnest, farthest);
+        return std::log(std::expm1(alpha*thickness)/-std::expm1((alpha - 1)*thickness)) - 0.5*thickness - mean;
+    }
+
     /// Newton's method for the plane with which the shares have `alpha` of their volume: mean_. The last step is linear, so that they have just that. False where it finds none.
     bool placeSurface(double alpha)
     {
-        double whole = 0, centre = 0;
-        for (const Share& s : shares_) whole += s.volume, centre += s.volume*s.middle;
+        double whole = 0;
+        for (const Share& s : shares_) whole += s.volume;
         if (whole <= 0) return false;
         setEnds();
-        place_ = std::clamp(std::log(alpha/(1 - alpha)) - centre/whole, -farthest, farthest);
+        place_ = std::clamp(firstPlace(alpha, whole), -farthest, farthest);
         for (int k = 0; k < maxIterations; ++k)
         {
             double mean = 0, slope = 0;
