@@ -11,7 +11,12 @@ namespace flotsam
 namespace
 {
 
-constexpr double gasShare = 0.25;   // of its Courant number that gas counts with
+constexpr double leastWeight = 0.25;    // of gas
+constexpr double halfFull = 0.5;        // largest alpha from which an element counts in full
+
+/// Share of its Courant number that an element with this largest alpha counts with. Spray and mist are the fastest in a splash, hold hardly any liquid, and their
+/// transport has time steps of its own.
+double courantWeight(double alpha) { return std::clamp(alpha/halfFull, leastWeight, 1.0); }
 
 double squaredSpeed(const SimplexMesh& mesh, const FlowState& state, int node)
 {
@@ -45,7 +50,7 @@ CourantSums courantSums(const SimplexMesh& mesh, const Cover* cover, const FlowS
         }
         for (int d = 0; d < dim; ++d) square += u[d]*u[d];
         const double rate = std::sqrt(square)/mesh.h[e], volume = fluidVolume(mesh, cover, e);
-        sums.largest = std::max(sums.largest, rate*(alpha < gasOnly ? gasShare : 1));
+        sums.largest = std::max(sums.largest, rate*courantWeight(alpha));
         sums.ofVolume[0] += volume*rate;
         sums.ofVolume[1] += volume;
     }

@@ -13,13 +13,13 @@
 namespace flotsam
 {
 
-constexpr double gasOnly = 0.01;    ///< largest alpha that counts as gas alone
+constexpr double gasOnly = 0.01;    ///< largest alpha of gas without liquid that matters
 
 /// |u|/h over the active elements, u: mean over the fluid part [1/s]. (Nodes inside solids that only slivers of fluid determine may have many times the velocity of these.)
 struct CourantRates
 {
     double mean = 0;    ///< over the fluid's volume
-    double largest = 0; ///< a quarter of it in elements of gas alone: the implicit scheme is stable, and the gas is not what is asked for
+    double largest = 0; ///< elements with little liquid by twice their largest alpha, at least a quarter: the implicit scheme is stable, and gas and spray are not what is asked for
 };
 CourantRates courantRates(const SimplexMesh& mesh, const Halo& halo, const Cover* cover, const FlowState& state);
 

@@ -16,13 +16,14 @@ namespace
 constexpr double sameDensity = 1e-10; // relative spread of nodal densities that counts as constant
 
 /// Distance of a node from its plane [m], of which only one element length h around the plane's own point counts as the surface.
+template<int dim>
 double distanceFromSurface(const SimplexMesh& mesh, const InterfacePlanes& planes, int i, double h)
 {
     const double d = planes.distance(i);
     double square = 0;
-    for (int k = 0; k < mesh.dim; ++k)
+    for (int k = 0; k < dim; ++k)
     {
-        const double t = mesh.x[std::size_t(i)*mesh.dim + k] - d*planes.normal(i)[k] - planes.point(i)[k];
+        const double t = mesh.x[std::size_t(i)*dim + k] - d*planes.normal(i)[k] - planes.point(i)[k];
         square += t*t;
     }
     return std::hypot(d, std::max(0.0, std::sqrt(square) - h));
@@ -30,11 +31,11 @@ double distanceFromSurface(const SimplexMesh& mesh, const InterfacePlanes& plane
 
 /// g.x of the foot of a point on the plane of node i. The node's own foot stays within one element length of the plane's own point, beyond
 /// which an inclined plane says nothing about the surface's height.
+template<int dim>
 double footPotential(const SimplexMesh& mesh, const double* g, const InterfacePlanes& planes, int i, double h, const double* point)
 {
-    const int dim = mesh.dim;
     const double *c = planes.point(i), *n = planes.normal(i), *x = &mesh.x[std::size_t(i)*dim], d = planes.distance(i);
-    double t[3], length = 0, along = 0;
+    double t[dim], length = 0, along = 0;
     for (int k = 0; k < dim; ++k)
     {
         t[k] = x[k] - d*n[k] - c[k];
@@ -49,7 +50,8 @@ double footPotential(const SimplexMesh& mesh, const double* g, const InterfacePl
 }
 
 /// Cosine of the largest angle between the planes of an element's nodes.
-double leastCosine(const InterfacePlanes& planes, const int* nodes, int dim)
+template<int dim>
+double leastCosine(const InterfacePlanes& planes, const int* nodes)
 {
     double least = 1;
     for (int a = 1; a <= dim; ++a)
@@ -63,11 +65,12 @@ double leastCosine(const InterfacePlanes& planes, const int* nodes, int dim)
 }
 
 /// Mean of the feet of an element's centre on its nodes' planes, each by the cosine between the plane's normal and the density gradient.
+template<int dim>
 double facingPotential(const SimplexMesh& mesh, const double* g, const InterfacePlanes& planes, int e, const double* gradRho)
 {
-    const int dim = mesh.dim, n = dim + 1;
+    constexpr int n = dim + 1;
     const int* nodes = &mesh.elements[std::size_t(e)*n];
-    double centre[3] = {}, facing = 0, sum = 0;
+    double centre[dim] = {}, facing = 0, sum = 0;
     for (int a = 0; a < n; ++a)
         for (int k = 0; k < dim; ++k) centre[k] += mesh.x[std::size_t(nodes[a])*dim + k]/n;
     for (int a = 0; a < n; ++a)
@@ -76,7 +79,7 @@ double facingPotential(const SimplexMesh& mesh, const double* g, const Interface
         for (int k = 0; k < dim; ++k) slope += gradRho[k]*planes.normal(nodes[a])[k];
         if (slope <= 0) continue;
         facing += slope;
-        sum += slope*footPotential(mesh, g, planes, nodes[a], mesh.h[e], centre);
+        sum += slope*footPotential<dim>(mesh, g, planes, nodes[a], mesh.h[e], centre);
     }
     if (facing > 0) return sum/facing;
     for (int k = 0; k < dim; ++k) sum += g[k]*centre[k];
@@ -85,20 +88,22 @@ double facingPotential(const SimplexMesh& mesh, const double* g, const Interface
 
 /// g.x_G of an element: mean over its nodes' feet. In the middle of a sheet a few elements thick nodes have the planes of either side, and that of the
 /// other side says nothing about this one's height: the more the planes oppose each other, the more only those count that face as the density grows.
+template<int dim>
 double elementPotential(const SimplexMesh& mesh, const double* g, const InterfacePlanes& planes, int e, const double* gradRho)
 {
-    const int dim = mesh.dim, n = dim + 1;
+    constexpr int n = dim + 1;
     const int* nodes = &mesh.elements[std::size_t(e)*n];
     double mean = 0;
-    for (int a = 0; a < n; ++a) mean += footPotential(mesh, g, planes, nodes[a], mesh.h[e], &mesh.x[std::size_t(nodes[a])*dim])/n;
-    const double opposed = std::max(0.0, -leastCosine(planes, nodes, dim));
-    return opposed > 0 ? (1 - opposed)*mean + opposed*facingPotential(mesh, g, planes, e, gradRho) : mean;
+    for (int a = 0; a < n; ++a) mean += footPotential<dim>(mesh, g, planes, nodes[a], mesh.h[e], &mesh.x[std::size_t(nodes[a])*dim])/n;
+    const double opposed = std::max(0.0, -leastCosine<dim>(planes, nodes));
+    return opposed > 0 ? (1 - opposed)*mean + opposed*facingPotential<dim>(mesh, g, planes, e, gradRho) : mean;
 }
 
 /// Mean over the fluid part of an element.
+template<int dim>
 double meanOf(const SimplexMesh& mesh, const Cover* cover, int e, const std::vector<double>& value)
 {
-    const int n = mesh.dim + 1;
+    constexpr int n = dim + 1;
     const int* nodes = &mesh.elements[std::size_t(e)*n];
     double mean = 0;
     if (cover && cover->state[e] == ElementState::Cut)
@@ -111,9 +116,8 @@ double meanOf(const SimplexMesh& mesh, const Cover* cover, int e, const std::vec
     return mean;
 }
 
-} // namespace
-
-void surfaceDensity(const SimplexMesh& mesh, const FluidProperties& fluid, const NumericsControls& controls, const InterfacePlanes& planes,
+template<int dim>
+void surfaceDensityT(const SimplexMesh& mesh, const FluidProperties& fluid, const NumericsControls& controls, const InterfacePlanes& planes,
     const std::vector<double>& width, const std::vector<double>& alpha, std::vector<double>& result)
 {
     result.resize(mesh.nNodes);
@@ -123,17 +127,18 @@ void surfaceDensity(const SimplexMesh& mesh, const FluidProperties& fluid, const
         if (planes.has(i))
         {
             const double h = width[i]/controls.interfaceWidth;
-            most = 1/(1 + std::exp((distanceFromSurface(mesh, planes, i, h) - h)/width[i]));
+            most = 1/(1 + std::exp((distanceFromSurface<dim>(mesh, planes, i, h) - h)/width[i]));
         }
         result[i] = density(fluid, controls, alpha[i] < 0.5 ? std::min(alpha[i], most) : std::max(alpha[i], 1 - most));
     }
 }
 
-void gravityForce(const SimplexMesh& mesh, const std::array<double, 3>& gravity, const std::vector<double>& rho,
+template<int dim>
+void gravityForceT(const SimplexMesh& mesh, const std::array<double, 3>& gravity, const std::vector<double>& rho,
     const InterfacePlanes* planes, const std::vector<double>& ofSurface, const Cover* cover, std::vector<double>& result)
 {
-    const int dim = mesh.dim, n = dim + 1;
-    double g[3];
+    constexpr int n = dim + 1;
+    double g[dim];
     for (int d = 0; d < dim; ++d) g[d] = gravity[mesh.axes[d]];
     result.resize(std::size_t(mesh.nElements)*dim);
     for (int e = 0; e < mesh.nElements; ++e)
@@ -147,13 +152,13 @@ void gravityForce(const SimplexMesh& mesh, const std::array<double, 3>& gravity,
             isBalanced = ofSurface[*heaviest] - ofSurface[*lightest] > sameDensity*ofSurface[*heaviest];
         }
         double* f = &result[std::size_t(e)*dim];
-        const double weight = meanOf(mesh, cover, e, rho) - (isBalanced ? meanOf(mesh, cover, e, ofSurface) : 0);
+        const double weight = meanOf<dim>(mesh, cover, e, rho) - (isBalanced ? meanOf<dim>(mesh, cover, e, ofSurface) : 0);
         for (int d = 0; d < dim; ++d) f[d] = weight*g[d];
         if (!isBalanced) continue;
-        double gradRho[3] = {};
+        double gradRho[dim] = {};
         for (int a = 0; a < n; ++a)
             for (int d = 0; d < dim; ++d) gradRho[d] += mesh.gradN[(std::size_t(e)*n + a)*dim + d]*ofSurface[nodes[a]];
-        const double foot = elementPotential(mesh, g, *planes, e, gradRho);
+        const double foot = elementPotential<dim>(mesh, g, *planes, e, gradRho);
         for (int a = 0; a < n; ++a)
         {
             double potential = -foot;
@@ -162,6 +167,22 @@ void gravityForce(const SimplexMesh& mesh, const std::array<double, 3>& gravity,
                 f[d] += mesh.gradN[(std::size_t(e)*n + a)*dim + d]*ofSurface[nodes[a]]*potential;
         }
     }
+}
+
+} // namespace
+
+void surfaceDensity(const SimplexMesh& mesh, const FluidProperties& fluid, const NumericsControls& controls, const InterfacePlanes& planes,
+    const std::vector<double>& width, const std::vector<double>& alpha, std::vector<double>& result)
+{
+    if (mesh.dim == 2) surfaceDensityT<2>(mesh, fluid, controls, planes, width, alpha, result);
+    else surfaceDensityT<3>(mesh, fluid, controls, planes, width, alpha, result);
+}
+
+void gravityForce(const SimplexMesh& mesh, const std::array<double, 3>& gravity, const std::vector<double>& rho,
+    const InterfacePlanes* planes, const std::vector<double>& ofSurface, const Cover* cover, std::vector<double>& result)
+{
+    if (mesh.dim == 2) gravityForceT<2>(mesh, gravity, rho, planes, ofSurface, cover, result);
+    else gravityForceT<3>(mesh, gravity, rho, planes, ofSurface, cover, result);
 }
 
 } // namespace flotsam

@@ -17,7 +17,7 @@ constexpr double pure = 1e-3;       // alpha this near to 0 and 1 is spread even
 constexpr int maxIterations = 30;   // of Newton's method for the plane's place
 constexpr double nearEnough = 1e-3; // widths of the plane from its place: the rest is linear
 constexpr double thinnest = 1e-3;   // slab, in widths
-constexpr double farthest = 700;    // from the surface, in widths: what exp() can tell from infinity
+constexpr double farthest = 300;    // of a slab's end from the node, in widths, and of the surface: sums of both are what exp() can tell from infinity
 
 /// The corner's share of an element: fluid volume, and as a slab along the normal, in widths of the profile.
 struct Share
@@ -26,11 +26,12 @@ struct Share
     double volume, middle, thickness;
 };
 
+template<int dim>
 class Spreading
 {
 public:
     Spreading(const SimplexMesh& mesh, const Cover* cover, const std::vector<double>& alpha, double width)
-    :   mesh_(mesh), cover_(cover), alpha_(alpha), width_(width), moments_(ShareMoments::of(mesh.dim)),
+    :   mesh_(mesh), cover_(cover), alpha_(alpha), width_(width), moments_(ShareMoments::of(dim)),
         result_(mesh.elements.size(), 0.0)
     {
         spreadEvenly();
@@ -52,12 +53,13 @@ public:
     }
 
 private:
+    static constexpr int n = dim + 1;
+
     bool isInBand(int i) const { return alpha_[i] > pure && alpha_[i] < 1 - pure; }
 
     /// All shares as if alpha were uniform in a dual cell, and the elements of nodes of which it is not.
     void spreadEvenly()
     {
-        const int n = mesh_.dim + 1;
         for (int e = 0; e < mesh_.nElements; ++e)
         {
             const ElementState state = cover_ ? cover_->state[e] : ElementState::Fluid;
@@ -72,7 +74,6 @@ private:
     /// Numbers the nodes of the band; their corners in the elements around.
     void collectCorners()
     {
-        const int n = mesh_.dim + 1;
         band_.assign(mesh_.nNodes, -1);
         int nBand = 0;
         for (int i = 0; i < mesh_.nNodes; ++i)
@@ -93,12 +94,11 @@ private:
     /// Sums over the elements around a node: gradients of alpha, and their lengths, by volume.
     void setGradients()
     {
-        const int dim = mesh_.dim, n = dim + 1;
         gradient_.assign((start_.size() - 1)*n, 0.0);
         for (int e : elements_)
         {
             const int* nodes = &mesh_.elements[std::size_t(e)*n];
-            double g[3] = {}, square = 0;
+            double g[dim] = {}, square = 0;
             for (int a = 0; a < n; ++a)
                 for (int d = 0; d < dim; ++d) g[d] += mesh_.gradN[(std::size_t(e)*n + a)*dim + d]*alpha_[nodes[a]];
             for (int d = 0; d < dim; ++d) square += g[d]*g[d];
@@ -117,7 +117,6 @@ private:
     /// The normal of node i, its shares, and these as slabs along the normal with middles relative to the node.
     void collectShares(int i)
     {
-        const int dim = mesh_.dim, n = dim + 1;
         const double* g = &gradient_[std::size_t(band_[i])*n];
         double size = 0;
         for (int d = 0; d < dim; ++d) size += g[d]*g[d];
@@ -137,7 +136,6 @@ private:
     /// The whole share of a corner, whose node is at x, as a slab of its own variance.
     Share slabOf(std::size_t slot, double volume, const double* x) const
     {
-        const int dim = mesh_.dim, n = dim + 1;
         const std::size_t e = slot/n;
         double sum = 0, squares = 0;    // of the other corners' places along the normal
         for (int b = 0; b < n; ++b)
@@ -149,47 +147,68 @@ private:
         }
         const double mean = moments_.first*sum, scale = 1/(width_*mesh_.h[e]);
         const double variance = (moments_.square - moments_.mixed)*squares + moments_.mixed*sum*sum - mean*mean;
-        return {slot, volume, mean*scale, std::max(thinnest, std::sqrt(12*std::max(0.0, variance))*scale)};
+        return {slot, volume, mean*scale, std::clamp(std::sqrt(12*std::max(0.0, variance))*scale, thinnest, farthest)};
+    }
+
+    /// exp(psi) at the slabs' ends for a plane through the node: another one multiplies all by the same factor.
+    void setEnds()
+    {
+        const std::size_t size = shares_.size();
+        ends_.resize(2*size);
+        for (std::size_t k = 0; k < size; ++k)
+        {
+            const double half = 0.5*shares_[k].thickness;
+            const double middle = std::clamp(shares_[k].middle, half - farthest, farthest - half);
+            ends_[k] = middle - half;
+            ends_[size + k] = middle + half;
+        }
+        exponentials(ends_.data(), int(2*size));
+        mean_.resize(size);
+        slope_.resize(size);
     }
 
     /// Means of the profile 1/(1+exp(-psi)) over the slabs, and their derivatives by place_: differences of ln(1+exp(psi)) and of the profile.
     void evaluateShares()
     {
-        const std::size_t n = shares_.size();
-        end_.resize(2*n);
-        exp_.resize(2*n);
-        log_.resize(2*n);
-        mean_.resize(n);
-        slope_.resize(n);
-        for (std::size_t k = 0; k < 2*n; ++k)
+        const std::size_t size = shares_.size();
+        const double x = std::exp(place_);
+        const double *lower = ends_.data(), *upper = lower + size;
+        for (std::size_t k = 0; k < size; ++k)
         {
-            const Share& s = shares_[k/2];
-            end_[k] = s.middle + place_ + (k % 2 ? -0.5 : 0.5)*s.thickness;
-            exp_[k] = -std::min(std::abs(end_[k]), farthest);
+            const double low = 1 + x*lower[k], up = 1 + x*upper[k];
+            mean_[k] = up/low;
+            slope_[k] = x*(upper[k] - lower[k])/(up*low);
         }
-        exponentials(exp_.data(), int(2*n));
-        for (std::size_t k = 0; k < 2*n; ++k) log_[k] = 1 + exp_[k];
-        logarithms(log_.data(), int(2*n));
-        for (std::size_t k = 0; k < 2*n; ++k)
+        logarithms(mean_.data(), int(size));
+        for (std::size_t k = 0; k < size; ++k)
         {
-            const double e = exp_[k];
-            exp_[k] = (end_[k] > 0 ? 1 : e)/(1 + e);
-            log_[k] += std::max(end_[k], 0.0);
+            const double share = 1/shares_[k].thickness;
+            mean_[k] *= share;
+            slope_[k] *= share;
         }
-        for (std::size_t k = 0; k < n; ++k)
+    }
+
+    /// Place of the plane in a slab of the whole cell's thickness: where its mean is alpha.
+    double firstPlace(double alpha, double whole) const
+    {
+        double mean = 0, squares = 0;
+        for (const Share& s : shares_)
         {
-            mean_[k] = (log_[2*k] - log_[2*k + 1])/shares_[k].thickness;
-            slope_[k] = (exp_[2*k] - exp_[2*k + 1])/shares_[k].thickness;
+            mean += s.volume/whole*s.middle;
+            squares += s.volume/whole*(s.middle*s.middle + s.thickness*s.thickness/12);
         }
+        const double thickness = std::clamp(std::sqrt(12*std::max(0.0, squares - mean*mean)), thinnest, farthest);
+        return std::log(std::expm1(alpha*thickness)/-std::expm1((alpha - 1)*thickness)) - 0.5*thickness - mean;
     }
 
     /// Newton's method for the plane with which the shares have `alpha` of their volume: mean_. The last step is linear, so that they have just that. False where it finds none.
     bool placeSurface(double alpha)
     {
-        double whole = 0, centre = 0;
-        for (const Share& s : shares_) whole += s.volume, centre += s.volume*s.middle;
+        double whole = 0;
+        for (const Share& s : shares_) whole += s.volume;
         if (whole <= 0) return false;
-        place_ = std::log(alpha/(1 - alpha)) - centre/whole;
+        setEnds();
+        place_ = std::clamp(firstPlace(alpha, whole), -farthest, farthest);
         for (int k = 0; k < maxIterations; ++k)
         {
             double mean = 0, slope = 0;
@@ -205,7 +224,7 @@ private:
                 for (std::size_t s = 0; s < shares_.size(); ++s) mean_[s] += step*slope_[s];
                 return true;
             }
-            place_ += std::clamp(step, -2.0, 2.0);
+            place_ = std::clamp(place_ + std::clamp(step, -2.0, 2.0), -farthest, farthest);
         }
         return false;
     }
@@ -222,18 +241,18 @@ private:
     std::vector<double> gradient_;      // (dim+1) per node of the band, see setGradients()
     // of the present node
     std::vector<Share> shares_;
-    double normal_[3] = {};
+    double normal_[dim] = {};
     double planarity_ = 0;  // 1: all gradients around point the same way; in the middle of a sheet they cancel
     double place_ = 0;      // of the plane: of the node from it, in widths
     std::vector<double> mean_, slope_;      // of the shares
-    std::vector<double> end_, exp_, log_;   // of their slabs' two ends: psi; functions of it
+    std::vector<double> ends_;              // of their slabs, first all lower ones: see setEnds()
 };
 
 } // namespace
 
 std::vector<double> liquidShares(const SimplexMesh& mesh, const Cover* cover, const std::vector<double>& alpha, double width)
 {
-    return Spreading(mesh, cover, alpha, width).run();
+    return mesh.dim == 2 ? Spreading<2>(mesh, cover, alpha, width).run() : Spreading<3>(mesh, cover, alpha, width).run();
 }
 
 } // namespace flotsam

@@ -41,7 +41,16 @@ struct FacingElements
 
     FacingElements(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& alpha, const Cover* cover);
     void sumGradients(const std::vector<double>& level);
-    void wantNeighbours(const std::vector<char>& hasMoved);
+    void wantNeighbours(const std::vector<int>& moved);
+
+private:
+    std::vector<int> wanted_;           // places in sums
+    std::vector<int> acting_;           // elements with wanted nodes, ascending: sums are the same to the last bit whoever else acts
+    std::vector<char> isActing_;        // per element
+    std::vector<int> start_, around_;   // elements of each place in sums, from the second repeat on
+
+    void want(int place) { if (!isWanted[place]) { isWanted[place] = 1; wanted_.push_back(place); } }
+    void listElementsAround();
 };
 
 /// Positive at the nodes near elements that the surface may pass: see nRings. Elements: those with nodes in the band.
@@ -123,16 +132,18 @@ FacingElements<D>::FacingElements(const SimplexMesh& mesh, const Halo& halo, con
         if (isNear[i] > 0 && isInBand(alpha[i])) band.push_back(i);
     sums.resize(node.size()*N);
     isWanted.assign(node.size(), 0);
-    for (int i : band) isWanted[local[i]] = 1;
+    for (int i : band) want(local[i]);
+    for (int e = 0; e < int(elements.size()); ++e)
+        if (std::any_of(elements[e].local, elements[e].local + N, [this](int l) { return isWanted[l]; })) acting_.push_back(e);
 }
 
 template<int D>
 void FacingElements<D>::sumGradients(const std::vector<double>& level)
 {
-    std::fill(sums.begin(), sums.end(), 0.0);
-    for (const Element& e : elements)
+    for (int l : wanted_) std::fill_n(&sums[std::size_t(l)*N], N, 0.0);
+    for (int k : acting_)
     {
-        if (std::none_of(e.local, e.local + N, [this](int l) { return isWanted[l]; })) continue;
+        const Element& e = elements[k];
         double part[N] = {}, square = 0;
         for (int a = 0; a < N; ++a)
             for (int d = 0; d < D; ++d) part[d] += level[e.node[a]]*e.gradN[a*D + d];
@@ -143,14 +154,40 @@ void FacingElements<D>::sumGradients(const std::vector<double>& level)
     }
 }
 
-/// Wanted are the nodes of elements with a node that has moved (both per place in sums).
 template<int D>
-void FacingElements<D>::wantNeighbours(const std::vector<char>& hasMoved)
+void FacingElements<D>::listElementsAround()
 {
-    std::fill(isWanted.begin(), isWanted.end(), 0);
+    start_.assign(node.size() + 1, 0);
     for (const Element& e : elements)
-        if (std::any_of(e.local, e.local + N, [&](int l) { return hasMoved[l]; }))
-            for (int l : e.local) isWanted[l] = 1;
+        for (int l : e.local) ++start_[l + 1];
+    for (std::size_t l = 0; l < node.size(); ++l) start_[l + 1] += start_[l];
+    around_.resize(start_.back());
+    std::vector<int> next(start_.begin(), start_.end() - 1);
+    for (int e = 0; e < int(elements.size()); ++e)
+        for (int l : elements[e].local) around_[next[l]++] = e;
+    isActing_.assign(elements.size(), 0);
+}
+
+/// Wanted are the nodes of elements with a node that has moved (places in sums). In spray a few nodes never come to rest: from the third repeat on a tenth of
+/// the elements acts and less.
+template<int D>
+void FacingElements<D>::wantNeighbours(const std::vector<int>& moved)
+{
+    if (start_.empty()) listElementsAround();
+    for (int l : wanted_) isWanted[l] = 0;
+    wanted_.clear();
+    for (int m : moved)
+        for (int k = start_[m]; k < start_[m + 1]; ++k)
+            for (int l : elements[around_[k]].local) want(l);
+    for (int l : wanted_)
+        for (int k = start_[l]; k < start_[l + 1]; ++k) isActing_[around_[k]] = 1;
+    acting_.clear();
+    for (int e = 0; e < int(elements.size()); ++e)
+    {
+        if (!isActing_[e]) continue;
+        isActing_[e] = 0;
+        acting_.push_back(e);
+    }
 }
 
 double thicknessInWidths(const DualCells& cells, int i, const double* normal, double width)
@@ -201,8 +238,7 @@ void takeMeans(const SimplexMesh& mesh, const Halo& halo, const std::vector<doub
 {
     FacingElements<D> facing(mesh, halo, alpha, cover);
     std::vector<double> lastChange(facing.band.size()), before;
-    std::vector<char> hasMoved(facing.node.size());
-    std::vector<int> wanted;
+    std::vector<int> wanted, moved;
     for (int repeat = 0; repeat < mostRepeats; ++repeat)
     {
         facing.sumGradients(level);
@@ -230,8 +266,10 @@ void takeMeans(const SimplexMesh& mesh, const Halo& halo, const std::vector<doub
         }
         halo.update(level, 1);
         if (halo.max(change) < tolerance) break;
-        for (std::size_t l = 0; l < facing.node.size(); ++l) hasMoved[l] = changeOf(facing.node[l]) >= tolerance;
-        facing.wantNeighbours(hasMoved);
+        moved.clear();
+        for (std::size_t l = 0; l < facing.node.size(); ++l)
+            if (changeOf(facing.node[l]) >= tolerance) moved.push_back(int(l));
+        facing.wantNeighbours(moved);
     }
 }
 

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam/cellMeans.H"
 
-#include <algorithm>
-
 namespace flotsam
 {
 
-bool cellMean(const MeshAdapter& adapter, const Cover* cover, const std::vector<double>& nodal, int width, int cell, double* mean)
+namespace
 {
+
+/// n: corners of an element. For every cell in every step that function objects look at: loops whose lengths the compiler knows.
+template<int n>
+bool cellMeanT(const MeshAdapter& adapter, const Cover* cover, const std::vector<double>& nodal, int cell, double* mean)
+{
+    constexpr int width = nodalWidth;
     const SimplexMesh& mesh = adapter.mesh;
-    const int n = mesh.dim + 1;
     for (const bool fluidOnly : {true, false})
     {
         double volume = 0;
-        std::fill_n(mean, width, 0.0);
+        double sum[width] = {};
         for (int k = adapter.cellStart[cell]; k < adapter.cellStart[cell + 1]; ++k)
         {
             const int e = adapter.cellElements[k];
@@ -24,15 +27,21 @@ bool cellMean(const MeshAdapter& adapter, const Cover* cover, const std::vector<
             for (int a = 0; a < n; ++a)
             {
                 const double weight = cut ? cut->first[a] : mesh.volume[e]/n;
-                const double* v = &nodal[static_cast<std::size_t>(mesh.elements[e*n + a])*width];
-                for (int j = 0; j < width; ++j) mean[j] += weight*v[j];
+                const double* v = &nodal[static_cast<std::size_t>(mesh.elements[std::size_t(e)*n + a])*width];
+                for (int j = 0; j < width; ++j) sum[j] += weight*v[j];
             }
         }
-        if (volume <= 0) continue;
-        for (int j = 0; j < width; ++j) mean[j] /= volume;
-        return fluidOnly;
+        for (int j = 0; j < width; ++j) mean[j] = volume > 0 ? sum[j]/volume : 0;
+        if (volume > 0) return fluidOnly;
     }
     return false;
+}
+
+} // namespace
+
+bool cellMean(const MeshAdapter& adapter, const Cover* cover, const std::vector<double>& nodal, int cell, double* mean)
+{
+    return adapter.mesh.dim == 2 ? cellMeanT<3>(adapter, cover, nodal, cell, mean) : cellMeanT<4>(adapter, cover, nodal, cell, mean);
 }
 
 double liquidFraction(const MeshAdapter& adapter, const Cover* cover, const std::vector<double>& shares, int cell, double otherwise)

@@ -18,7 +18,6 @@ namespace flotsam
 namespace
 {
 
-constexpr int nodalWidth = 6;
 enum Component { Ux, Uy, Uz, P, Prgh, Alpha };
 
 Foam::IOobject inputField(const Foam::fvMesh& mesh, const Foam::word& name)
@@ -311,7 +310,7 @@ void FoamFields::updateCells(const FlowState& state, const Cover* cover, const s
         shares = liquidShares(adapter_.mesh, cover, state.alpha, controls_.numerics.interfaceWidth);
     for (Foam::label c = 0; c < nCells; ++c)
     {
-        const bool hasFluid = cellMean(adapter_, cover, nodal_, nodalWidth, c, mean);
+        const bool hasFluid = cellMean(adapter_, cover, nodal_, c, mean);
         if (cover && !hasFluid) rigidVelocity(*cover, solids, c, mean);
         velocity_[c] = Foam::vector(mean[Ux], mean[Uy], mean[Uz]);
         (*pressure_)[c] = mean[P];
