@@ -14,8 +14,8 @@ namespace
 constexpr double leastWeight = 0.25;    // of gas
 constexpr double halfFull = 0.5;        // largest alpha from which an element counts in full
 
-/// Share of its Courant number that an element with this largest alpha counts with. Spray and mist are the fastest in a splash, hold hardly any liquid, and their
-/// transport has time steps of its own.
+/// Share of its Courant number that an element with this largest alpha counts with. Spray and mist are the fastest in a splash, hold
+/// hardly any liquid, and their transport has time steps of its own.
 double courantWeight(double alpha) { return std::clamp(alpha/halfFull, leastWeight, 1.0); }
 
 double squaredSpeed(const SimplexMesh& mesh, const FlowState& state, int node)

@@ -19,7 +19,9 @@ constexpr double gasOnly = 0.01;    ///< largest alpha of gas without liquid tha
 struct CourantRates
 {
     double mean = 0;    ///< over the fluid's volume
-    double largest = 0; ///< elements with little liquid by twice their largest alpha, at least a quarter: the implicit scheme is stable, and gas and spray are not what is asked for
+    /// Elements with little liquid count by twice their largest alpha, at least a quarter: the implicit scheme is stable, and gas and
+    /// spray are not what is asked for.
+    double largest = 0;
 };
 CourantRates courantRates(const SimplexMesh& mesh, const Halo& halo, const Cover* cover, const FlowState& state);
 

@@ -168,8 +168,8 @@ void FacingElements<D>::listElementsAround()
     isActing_.assign(elements.size(), 0);
 }
 
-/// Wanted are the nodes of elements with a node that has moved (places in sums). In spray a few nodes never come to rest: from the third repeat on a tenth of
-/// the elements acts and less.
+/// Wanted are the nodes of elements with a node that has moved (places in sums). In spray a few nodes never come to rest: from the
+/// sixth repeat on a tenth of the elements acts and less.
 template<int D>
 void FacingElements<D>::wantNeighbours(const std::vector<int>& moved)
 {
