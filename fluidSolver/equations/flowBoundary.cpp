@@ -109,13 +109,11 @@ void FlowEquation::applyPockets(std::vector<double>& x) const
     }
 }
 
-/// By patches, at the edge of gas that is left out, in shut pockets. Not of nodes in solids: what a patch prescribes there is by the density in the solid, which
-/// may be that of the water behind it.
+/// By patches, at the edge of gas that is left out, in shut pockets.
 void FlowEquation::fixPressures()
 {
-    const auto isInSolid = [&](int i) { return step_.cover && step_.cover->distance[i] < 0; };
     for (int i = 0; i < mesh_.nNodes; ++i)
-        system_.isPressureFixed[i] = (isPatchPressureFixed_[i] && !isInSolid(i)) || (step_.gas && step_.gas->isEdge()[i]) || (step_.pockets && step_.pockets->isNode(i));
+        system_.isPressureFixed[i] = isPatchPressureFixed_[i] || (step_.gas && step_.gas->isEdge()[i]) || (step_.pockets && step_.pockets->isNode(i));
 }
 
 void FlowEquation::applyConstraints(const std::vector<PatchValues>& values, std::vector<double>& x) const
@@ -149,7 +147,6 @@ void FlowEquation::applyConstraints(const std::vector<PatchValues>& values, std:
         for (std::size_t k = 0; k < patches_[p].nodes.size(); ++k)
         {
             const int i = patches_[p].nodes[k];
-            if (!system_.isPressureFixed[i]) continue;
             // Total: the dynamic part acts implicitly, through the boundary term that the skew-symmetric convection leaves
             // out (p + rho (u.n) u/2 = p0). Subtracted here from the last velocity it feeds back on itself within the
             // step and blows up at any time step (measured)
@@ -189,7 +186,7 @@ void FlowEquation::assembleOpenBoundaries()
     }
 }
 
-/// pressure: prescribed at the face's nodes; null, and where it is not fixed: the unknown's own value acts.
+/// pressure: prescribed at the face's nodes; null: the unknown's own value acts.
 template<int D>
 void FlowEquation::addOpenFace(const int* nodes, const double* v, const double* first, const double* second, const double* pressure)
 {
@@ -213,7 +210,7 @@ void FlowEquation::addOpenFace(const int* nodes, const double* v, const double* 
         for (int l = 0; l < D; ++l)     // - int p_ext w.n
         {
             const double weight = second[k*D + l];
-            if (pressure && system_.isPressureFixed[nodes[l]])
+            if (pressure)
             {
                 for (int d = 0; d < D; ++d) system_.rhs[std::size_t(i)*B + d] -= weight*pressure[l]*v[d];
                 continue;

@@ -60,8 +60,17 @@ void Fluid::setGeometry(const Cover* cover, const std::vector<Solid>* solids, bo
 
 void Fluid::evaluatePatches(double time)
 {
-    const BoundaryState state{time, state_.u.data(), state_.alpha.data()};
+    const BoundaryState state{time, state_.u.data(), alphaOfPatches().data()};
     for (std::size_t p = 0; p < patches_.size(); ++p) patches_[p].evaluate(state, values_[p]);
+}
+
+/// As pressure boundaries read it, which make p of p_rgh: what is left in a solid may be the water on its other side.
+const std::vector<double>& Fluid::alphaOfPatches()
+{
+    if (!cover_ || !fluid_.isTwoPhase) return state_.alpha;
+    patchAlpha_ = state_.alpha;
+    takeFromFluidBeside(mesh_, halo_, *cover_, equation_.isPatchPressureFixed(), patchAlpha_);
+    return patchAlpha_;
 }
 
 const std::vector<double>& Fluid::halfStep(const std::vector<double>& now, const std::vector<double>& old, double dt,

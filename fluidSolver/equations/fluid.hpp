@@ -95,6 +95,7 @@ public:
 
 private:
     void evaluatePatches(double time);
+    const std::vector<double>& alphaOfPatches();
     void moveInactiveNodes();
     void extendPhase();
     void findSurface(const Cover* cover);
@@ -119,6 +120,7 @@ private:
     NumericsControls controls_;
     std::vector<BoundaryPatch> patches_;
     std::vector<PatchValues> values_;
+    std::vector<double> patchAlpha_;    // see alphaOfPatches()
 
     FlowState state_, before_;      // before_: alpha levels at the start of the step
     FlowEquation equation_;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "equations/solidExtension.hpp"
 
+#include <array>
+#include <map>
+
 namespace flotsam
 {
 
@@ -66,6 +69,33 @@ void extendIntoSolids(const SimplexMesh& mesh, const NodeGraph& graph, const Hal
             values[i] = state[2*std::size_t(i)];
         }
     }
+}
+
+void takeFromFluidBeside(const SimplexMesh& mesh, const Halo& halo, const Cover& cover, const std::vector<char>& isWanted,
+    std::vector<double>& values)
+{
+    const int n = mesh.dim + 1;
+    std::map<int, std::array<double, 2>> found; // sums of values and of weights
+    for (const CutElement& cut : cover.cuts)
+    {
+        const int* nodes = &mesh.elements[std::size_t(cut.element)*n];
+        const auto isFluid = [&](int a) { return cover.distance[nodes[a]] > 0; };
+        for (int a = 0; a < n; ++a)
+        {
+            if (nodes[a] >= mesh.nOwned || isFluid(a) || !isWanted[nodes[a]]) continue;
+            std::array<double, 2>& sums = found[nodes[a]];
+            for (int b = 0; b < n; ++b)
+            {
+                if (!isFluid(b)) continue;
+                sums[0] += cut.first[b]*values[nodes[b]];
+                sums[1] += cut.first[b];
+            }
+        }
+    }
+    if (!halo.any(!found.empty())) return;
+    for (const auto& [node, sums] : found)
+        if (sums[1] > 0) values[node] = sums[0]/sums[1];
+    halo.update(values, 1);
 }
 
 } // namespace flotsam

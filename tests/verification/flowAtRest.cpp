@@ -61,7 +61,7 @@ TEST_CASE("water at rest around a fixed cut cylinder stays at rest and carries i
     CHECK(std::abs(force[0]) < 1e-6);
 }
 
-TEST_CASE("pressures that a boundary prescribes within a solid drive nothing")
+TEST_CASE("water that is left in a solid at an open boundary drives nothing")
 {
     usePetsc();
     const SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, 2, {20, 20, 1}, {0, 0, 0}, {1, 1, 1}, 0.1);
@@ -69,26 +69,27 @@ TEST_CASE("pressures that a boundary prescribes within a solid drive nothing")
     NumericsControls controls;
     controls.tolerance = 1e-10;
     FluidProperties properties = singleFluid(1);
+    properties.isTwoPhase = true;
     properties.gravity[1] = 0;
     std::vector<BoundaryPatch> patches = allPatches(mesh, BoundaryPatch::Velocity::Slip);
     patches[3] = makePatch(mesh, 3, BoundaryPatch::Velocity::Open);
-    // as from p_rgh and the density of water that once was there: a cylinder sticks out through the top
-    const double centre = 0.51, radius = 0.22;
     const auto ofPatch = patches[3].evaluate;
     patches[3].evaluate = [&](const BoundaryState& state, PatchValues& values)
     {
         ofPatch(state, values);
-        for (std::size_t k = 0; k < patches[3].nodes.size(); ++k)
-            if (std::abs(mesh.x[2*std::size_t(patches[3].nodes[k])] - centre) < radius) values.pressure[k] = -500;
+        for (std::size_t k = 0; k < patches[3].nodes.size(); ++k) values.pressure[k] = -500*state.alpha[patches[3].nodes[k]]; // as of p_rgh
     };
-    Fluid fluid(mesh, halo, properties, controls, patches);
-    fluid.start(restState(mesh), true);
-    std::vector<Solid> solids(1);
+    std::vector<Solid> solids(1); // a cylinder that sticks out through the top, in gas
+    const double centre = 0.51, radius = 0.22;
     solids[0].shape = makeCylinder(Vec3(0, 0, -1), Vec3(0, 0, 2), radius);
     solids[0].pose.position = Vec3(centre, 1, 0);
+    FlowState start = restState(mesh);
+    for (int i = 0; i < mesh.nNodes; ++i) start.alpha[i] = std::hypot(mesh.x[2*std::size_t(i)] - centre, mesh.x[2*std::size_t(i) + 1] - 1) < radius;
+    Fluid fluid(mesh, halo, properties, controls, patches);
+    fluid.start(start, false);
     CoverBuilder builder(mesh, fluid.graph(), halo);
     const Cover& cover = builder.build(solids);
-    fluid.setGeometry(&cover, &solids, true);
+    fluid.setGeometry(&cover, &solids, false);
     for (int step = 0; step < 3; ++step)
     {
         fluid.beginStep(0.01);
@@ -97,7 +98,7 @@ TEST_CASE("pressures that a boundary prescribes within a solid drive nothing")
         fluid.endStep();
     }
     std::printf("fastest fluid %.1e m/s\n", largestSpeed(fluid));
-    CHECK(largestSpeed(fluid) < 1e-8);
+    CHECK(largestSpeed(fluid) < 1e-6);
 }
 
 TEST_CASE("a released cylinder starts with the added-mass acceleration at any density")
