@@ -13,13 +13,12 @@ int Basins::root(int i)
     return i;
 }
 
-void Basins::joinLocally(const Cover* cover, JoinedBy joinedBy)
+void Basins::joinLocally(const Cover* cover, const std::vector<int>* isLeftOut)
 {
     const int n = mesh_.dim + 1;
     basin_.resize(mesh_.nNodes);
     std::iota(basin_.begin(), basin_.end(), 0);
     lowest_.assign(mesh_.nNodes, -1);
-    const auto isJoined = [&](int i) { return joinedBy == JoinedBy::Elements || !cover || cover->distance[i] > 0; };
     for (int e = 0; e < mesh_.nElements; ++e)
     {
         if (cover && cover->state[e] == ElementState::Solid) continue;
@@ -28,7 +27,7 @@ void Basins::joinLocally(const Cover* cover, JoinedBy joinedBy)
         for (int a = 0; a < n; ++a)
         {
             const int i = nodes[a];
-            if (!isJoined(i)) continue;
+            if (isLeftOut && (*isLeftOut)[i]) continue;
             if (first < 0) first = root(i);
             if (lowest_[i] < 0) lowest_[i] = double(mesh_.globalNode[i]);
             if (basin_[i] != first) basin_[root(i)] = first;
@@ -54,9 +53,9 @@ void Basins::number()
         basin_[i] = lowest_[i] < 0 ? -1 : int(std::lower_bound(all.begin(), all.end(), lowest_[i]) - all.begin());
 }
 
-void Basins::find(const Cover* cover, JoinedBy joinedBy)
+void Basins::find(const Cover* cover, const std::vector<int>* isLeftOut)
 {
-    joinLocally(cover, joinedBy);
+    joinLocally(cover, isLeftOut);
     std::vector<double> least(mesh_.nNodes);
     for (bool isMoving = true; halo_.any(isMoving); )
     {

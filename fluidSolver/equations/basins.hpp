@@ -14,12 +14,8 @@ class Basins
 public:
     Basins(const SimplexMesh& mesh, const Halo& halo) : mesh_(mesh), halo_(halo) {}
 
-    /// Elements: all nodes of an element with a fluid part, what the equations join. FluidNodes: those outside solids alone, what fluid itself joins; nodes in
-    /// solids are then in no basin.
-    enum class JoinedBy { Elements, FluidNodes };
-
-    /// cover: of what is computed; null: no solids. Collective.
-    void find(const Cover* cover, JoinedBy joinedBy = JoinedBy::Elements);
+    /// cover: of what is computed; null: no solids. isLeftOut (nNodes, same on every rank; null: none): nodes that join nothing and are in no basin. Collective.
+    void find(const Cover* cover, const std::vector<int>* isLeftOut = nullptr);
 
     int count() const { return count_; }            ///< of all ranks
     int of(int i) const { return basin_[i]; }       ///< node i: 0..count()-1, the same on every rank; -1: no fluid there
@@ -29,7 +25,7 @@ public:
 
 private:
     int root(int i);
-    void joinLocally(const Cover* cover, JoinedBy joinedBy);
+    void joinLocally(const Cover* cover, const std::vector<int>* isLeftOut);
     void number();
 
     const SimplexMesh& mesh_;

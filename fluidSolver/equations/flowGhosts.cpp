@@ -2,6 +2,7 @@
 /// Ghost penalty: jumps of the normal derivatives across faces of cut elements (docs/numerics.md, section 3).
 #include "equations/elementLoader.hpp"
 #include "equations/flowEquation.hpp"
+#include "equations/shutPockets.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -101,7 +102,9 @@ void FlowEquation::assembleGhosts()
         // at the water line all of it: it levels surfaces that would come to rest aslant beside a body
         const double weight = hasOneDensity(nodal_.rho, term.node, D + 2) ? ghostWeight(mesh_, *step_.cover, f) : 1;
         term.velocityFactor = face.area*(controls_.ghostVelocity*mu*h + weight*controls_.ghostConvection*rho*speed*h*h);
-        term.pressureFactor = weight*face.area*controls_.ghostPressure*h*h*h*lighter*lighter
+        // a pocket's pressure is that of fluid elsewhere: its gradient says nothing
+        const bool isOfPocket = step_.pockets && std::any_of(term.node, term.node + D + 2, [&](int i) { return step_.pockets->isNode(i); });
+        term.pressureFactor = isOfPocket ? 0 : weight*face.area*controls_.ghostPressure*h*h*h*lighter*lighter
             /(std::min(side[0].mu, side[1].mu) + lighter*(speed*h + h*h/step_.time.dt));
         system_.ghosts.push_back(term);
     }

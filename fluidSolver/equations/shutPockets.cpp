@@ -8,24 +8,73 @@
 namespace flotsam
 {
 
+namespace
+{
+
+constexpr double leastShare = 0.02; // of its dual cell that is fluid: with less a node between solids joins nothing
+
+} // namespace
+
+ShutPockets::ShutPockets(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo)
+:   mesh_(mesh), graph_(graph), halo_(halo), fluids_(mesh, halo), isBoundaryNode_(mesh.nNodes, 0)
+{
+    for (const MeshPatch& patch : mesh.patches)
+        for (int i : patch.faceNodes) isBoundaryNode_[i] = 1;
+}
+
+/// Of the dual cell of owned node i.
+double ShutPockets::fluidShare(const Cover& cover, int i) const
+{
+    const int n = mesh_.dim + 1;
+    double fluid = 0, whole = 0;
+    for (int k = graph_.nodeElementStart[i]; k < graph_.nodeElementStart[i + 1]; ++k)
+    {
+        const int e = graph_.nodeElement[k], *nodes = &mesh_.elements[std::size_t(e)*n];
+        const double share = mesh_.volume[e]/n;
+        whole += share;
+        if (cover.state[e] == ElementState::Fluid) fluid += share;
+        else if (cover.state[e] == ElementState::Cut) fluid += cover.cuts[cover.cutIndex[e]].first[std::find(nodes, nodes + n, i) - nodes];
+    }
+    return fluid/whole;
+}
+
+/// Nodes in solids, and in gaps between solids so thin that what flows there means nothing. Not under bodies on walls of the mesh, where films carry what flows.
+std::vector<int> ShutPockets::findLeftOut(const Cover& cover) const
+{
+    std::vector<int> isLeftOut(mesh_.nNodes, 0);
+    for (int i = 0; i < mesh_.nOwned; ++i) isLeftOut[i] = cover.distance[i] < 0;
+    for (const CutElement& cut : cover.cuts)
+        for (int a = 0; a <= mesh_.dim; ++a)
+        {
+            const int i = mesh_.elements[std::size_t(cut.element)*(mesh_.dim + 1) + a];
+            if (i < mesh_.nOwned && !isLeftOut[i] && !isBoundaryNode_[i]) isLeftOut[i] = fluidShare(cover, i) < leastShare;
+        }
+    halo_.update(isLeftOut, 1);
+    return isLeftOut;
+}
+
 void ShutPockets::find(const Cover& cover, const std::vector<char>& isPressureFixed)
 {
     const int n = mesh_.dim + 1;
     isIn_.clear();
-    fluids_.find(&cover, Basins::JoinedBy::FluidNodes);
+    const std::vector<int> isLeftOut = findLeftOut(cover);
+    fluids_.find(&cover, &isLeftOut);
     std::vector<char> isOpen(mesh_.nNodes, 1); // whole elements all around, or a pressure from a boundary
     for (int e = 0; e < mesh_.nElements; ++e)
         for (int a = 0; a < n && cover.state[e] != ElementState::Fluid; ++a) isOpen[mesh_.elements[std::size_t(e)*n + a]] = 0;
     for (int i = 0; i < mesh_.nNodes; ++i) isOpen[i] |= isPressureFixed[i];
     const std::vector<char> isOutside = fluids_.haveAny(isOpen);
     const auto nOutside = std::count(isOutside.begin(), isOutside.end(), 1);
-    if (nOutside == 0 || nOutside == fluids_.count()) return;
+    const auto isThin = [&](int i) { return isLeftOut[i] && cover.distance[i] > 0; };
+    bool areThin = false;
+    for (int i = 0; i < mesh_.nOwned; ++i) areThin = areThin || isThin(i);
+    if (nOutside == 0 || !(halo_.any(areThin) || nOutside < fluids_.count())) return;
     isIn_.resize(mesh_.nNodes);
     isOutside_.resize(mesh_.nNodes);
     for (int i = 0; i < mesh_.nNodes; ++i)
     {
         const int f = fluids_.of(i);
-        isIn_[i] = f >= 0 && !isOutside[f];
+        isIn_[i] = isThin(i) || (f >= 0 && !isOutside[f]);
         isOutside_[i] = f >= 0 && isOutside[f];
     }
     addNodesInSolids(cover);
@@ -39,7 +88,7 @@ void ShutPockets::addNodesInSolids(const Cover& cover)
     for (const CutElement& cut : cover.cuts)
     {
         const int* nodes = &mesh_.elements[std::size_t(cut.element)*n];
-        const bool isPocket = std::any_of(nodes, nodes + n, [&](int i) { return isIn_[i] && cover.distance[i] > 0; });
+        const bool isPocket = std::all_of(nodes, nodes + n, [&](int i) { return isIn_[i] || cover.distance[i] < 0; });
         for (int a = 0; a < n; ++a) (isPocket ? isOfPocket : isOfOther)[nodes[a]] = 1;
     }
     for (int i = 0; i < mesh_.nOwned; ++i) isIn_[i] = isIn_[i] || (isOfPocket[i] && !isOfOther[i]);
