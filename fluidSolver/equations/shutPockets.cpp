@@ -53,31 +53,35 @@ std::vector<int> ShutPockets::findLeftOut(const Cover& cover) const
     return isLeftOut;
 }
 
-void ShutPockets::find(const Cover& cover, const std::vector<char>& isPressureFixed)
+/// Nodes with whole elements all around, or a pressure from a boundary: their fluid is no pocket.
+std::vector<char> ShutPockets::findOpen(const Cover& cover, const std::vector<char>& isPressureFixed) const
 {
     const int n = mesh_.dim + 1;
-    isIn_.clear();
-    const std::vector<int> isLeftOut = findLeftOut(cover);
-    fluids_.find(&cover, &isLeftOut);
-    std::vector<char> isOpen(mesh_.nNodes, 1); // whole elements all around, or a pressure from a boundary
+    std::vector<char> isOpen(mesh_.nNodes, 1);
     for (int e = 0; e < mesh_.nElements; ++e)
         for (int a = 0; a < n && cover.state[e] != ElementState::Fluid; ++a) isOpen[mesh_.elements[std::size_t(e)*n + a]] = 0;
     for (int i = 0; i < mesh_.nNodes; ++i) isOpen[i] |= isPressureFixed[i];
-    const std::vector<char> isOutside = fluids_.haveAny(isOpen);
-    const auto nOutside = std::count(isOutside.begin(), isOutside.end(), 1);
-    const auto isThin = [&](int i) { return isLeftOut[i] && cover.distance[i] > 0; };
-    bool areThin = false;
-    for (int i = 0; i < mesh_.nOwned; ++i) areThin = areThin || isThin(i);
-    if (nOutside == 0 || !(halo_.any(areThin) || nOutside < fluids_.count())) return;
-    isIn_.resize(mesh_.nNodes);
-    isOutside_.resize(mesh_.nNodes);
+    return isOpen;
+}
+
+void ShutPockets::find(const Cover& cover, const std::vector<char>& isPressureFixed)
+{
+    const std::vector<int> isLeftOut = findLeftOut(cover);
+    fluids_.find(&cover, &isLeftOut);
+    const std::vector<char> isOutside = fluids_.haveAny(findOpen(cover, isPressureFixed));
+    isIn_.assign(mesh_.nNodes, 0);
+    isOutside_.assign(mesh_.nNodes, 0);
+    bool areAny = false;
     for (int i = 0; i < mesh_.nNodes; ++i)
     {
         const int f = fluids_.of(i);
-        isIn_[i] = isThin(i) || (f >= 0 && !isOutside[f]);
         isOutside_[i] = f >= 0 && isOutside[f];
+        const bool isThin = isLeftOut[i] && cover.distance[i] > 0;
+        isIn_[i] = isThin || (f >= 0 && !isOutside[f]);
+        areAny = areAny || isIn_[i];
     }
-    addNodesInSolids(cover);
+    if (halo_.any(areAny) && std::count(isOutside.begin(), isOutside.end(), 1) > 0) addNodesInSolids(cover);
+    else isIn_.clear();
 }
 
 /// Those that no element of other fluid holds.

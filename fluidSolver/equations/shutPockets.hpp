@@ -36,6 +36,7 @@ public:
 
 private:
     std::vector<int> findLeftOut(const Cover& cover) const;
+    std::vector<char> findOpen(const Cover& cover, const std::vector<char>& isPressureFixed) const;
     double fluidShare(const Cover& cover, int i) const;
     void addNodesInSolids(const Cover& cover);
 
