@@ -41,16 +41,8 @@ bool ContactIteration::take(const std::vector<Load>& loads, const AddedInertia& 
     if (!isNewGuess_) return true;
     ++repeats_;
     guessBefore_ = guess_;
-    guess_ = unscaled(withAnswers(anderson_.next(used, found), used, found), factors);
+    guess_ = unscaled(anderson_.next(used, found), factors);
     return false;
-}
-
-/// Extrapolated guesses, but for bodies whose guess would go against what the engine answered: they take the answer. Extrapolated from contacts that open or close, a wall pulls.
-Eigen::VectorXd ContactIteration::withAnswers(Eigen::VectorXd next, const Eigen::VectorXd& used, const Eigen::VectorXd& found)
-{
-    for (Eigen::Index b = 0; b < next.size(); b += 6)
-        if ((next - used).segment<6>(b).dot((found - used).segment<6>(b)) < 0) next.segment<6>(b) = found.segment<6>(b);
-    return next;
 }
 
 std::vector<Load> ContactIteration::lastChange() const

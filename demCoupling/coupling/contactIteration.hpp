@@ -31,7 +31,6 @@ public:
     double mismatch() const { return mismatch_; }   ///< of the last take(), as CouplingControls::tolerance
 
 private:
-    static Eigen::VectorXd withAnswers(Eigen::VectorXd next, const Eigen::VectorXd& used, const Eigen::VectorXd& found);
     Eigen::VectorXd scaled(const std::vector<Load>& loads, const std::vector<InertiaFactor>& factors) const;
     std::vector<Load> unscaled(const Eigen::VectorXd& values, const std::vector<InertiaFactor>& factors) const;
 
