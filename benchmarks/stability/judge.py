@@ -19,7 +19,7 @@ BOUNDS = {
     "overlap": (0.1, "deepest overlap of contact surfaces over the thinnest body"),
     "steps": (10, "time steps over those that the Courant number asks for at the speed which energy allows"),
     "rejected": (0.05, "share of steps that were repeated smaller"),
-    "fastest": (3, "jam: mean velocity of an element in any step, over that which energy allows; of gas a quarter"),
+    "fastest": (3, "jam: mean velocity of an element's fluid in any step, over that which energy allows; of gas a quarter"),
     "collapsed": (0, "jam: steps shorter than a hundredth of the median step, other than to meet a write time"),
     "unsolved": (0.01, "share of steps whose linear solve did not converge"),
 }
