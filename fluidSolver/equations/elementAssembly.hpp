@@ -85,7 +85,7 @@ inline void addEntry(const ElementData<D, Real>& e, const NodeFactors<D, Real>& 
     const int* slot, const EntryTarget& target)
 {
     const Real *ga = e.gradN + a*D, *gb = e.gradN + b*D;
-    const Real scalar = scalarMomentum(e, f, a, b), pressure = e.keepsVolume ? f.pressure*pair.laplace : Real{}, schur = f.schur*pair.laplace;
+    const Real scalar = scalarMomentum(e, f, a, b), pressure = f.pressure*pair.laplace, schur = f.schur*pair.laplace;
     Real velocity[D*D], gradient[D], divergence[D];
     for (int k = 0; k < D; ++k)
     {
@@ -93,7 +93,6 @@ inline void addEntry(const ElementData<D, Real>& e, const NodeFactors<D, Real>& 
         velocity[k*(D + 1)] += scalar;
         gradient[k] = f.streamline[a]*gb[k] - ga[k]*e.first[b];     // pressure gradient, SUPG
         divergence[k] = e.first[a]*gb[k] + ga[k]*f.pspg[b];         // continuity, PSPG
-        if (!e.keepsVolume) divergence[k] = Real{};
     }
     for (int l = 0; l < widthOf<Real>; ++l)
     {

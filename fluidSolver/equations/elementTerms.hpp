@@ -19,9 +19,8 @@ namespace flotsam
 {
 
 /// N*N: int N_a N_b; null: not cut, V (1 + delta_ab)/(N (N + 1)). No element in the lanes of vectors is cut.
-/// keepsVolume: false in elements with a node of a shut pocket, which let fluid in and out: they say nothing about the divergence.
-template<class Real> struct CutMoments { static constexpr const double* second = nullptr; static constexpr bool keepsVolume = true; };
-template<> struct CutMoments<double> { const double* second; bool keepsVolume = true; };
+template<class Real> struct CutMoments { static constexpr const double* second = nullptr; };
+template<> struct CutMoments<double> { const double* second; };
 
 /// One element (Real is double) or several, one in each lane.
 template<int D, class Real = double>
@@ -126,7 +125,7 @@ struct NodeSource
             momentum[k] = mass + streamline*history.residual[k] + forced*e.force[k];
             continuity += ga[k]*history.residual[k];
         }
-        continuity *= e.keepsVolume ? e.tau : Real{};
+        continuity *= e.tau;
     }
 };
 

@@ -222,7 +222,6 @@ inline void FlowEquation::assembleElementsIn()
         [&](int e)
         {
             if (!loadElementData<D>(e, mesh_, step_, fluid_, controls_, nodal_, data)) return;
-            data.keepsVolume = !isOfPocket(e);
             addElements(&e, data);
             countViscous(e, data.mu, data.rho);
         });

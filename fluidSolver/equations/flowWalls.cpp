@@ -77,7 +77,6 @@ void FlowEquation::addFacetGroup(const FacetGroup<D>& group, const Solid& solid,
                                            : penaltyCoefficients(isSlip, controls_.penalty);
     c.convection = 0.5*motion.density*motion.wall;
     const WallTerms<D> terms(c, group.normal, data.gradN);
-    const bool keepsVolume = !isOfPocket(group.element);
     RigidBlocks<D> rigid;
     for (int a = 0; a < N; ++a)
     {
@@ -87,7 +86,6 @@ void FlowEquation::addFacetGroup(const FacetGroup<D>& group, const Solid& solid,
             double m[B*B];
             const double m2 = group.m2[a*N + b], swept = c.convection*m2;
             terms.block(a, b, group.m1[a], group.m1[b], m2, isSlip ? group.ofMeans(a, b) : m2, m);
-            if (!keepsVolume) std::fill(m + D*B, m + B*B, 0.0);
             rigid.add(a, b, m, arm);
             if (!isRow) continue;
             for (int k = 0; k < D; ++k) m[k*(B + 1)] += swept;

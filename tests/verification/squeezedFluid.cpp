@@ -170,7 +170,7 @@ TEST_CASE("a gap of a hundredth of an element that closes: its fluid does not le
         if (k > 0) fastest = std::max(fastest, largestSpeed(press.mesh, press.halo, run.fluid().state().u));
     }
     std::printf("fastest %.1f times the hammer\n", fastest/speed);
-    CHECK(fastest < 20*speed);
+    CHECK(fastest < 0.5*press.mesh.h[0]/gap*speed); // half an element at either end is not thin
 }
 
 TEST_CASE("a step whose equations are not a number is not accepted")
