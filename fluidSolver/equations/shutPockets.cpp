@@ -42,12 +42,16 @@ double ShutPockets::fluidShare(const Cover& cover, int i) const
 std::vector<int> ShutPockets::findLeftOut(const Cover& cover) const
 {
     std::vector<int> isLeftOut(mesh_.nNodes, 0);
-    for (int i = 0; i < mesh_.nOwned; ++i) isLeftOut[i] = cover.distance[i] < 0;
+    std::vector<char> isKnown(isBoundaryNode_); // many cut elements share a node
+    for (int i = 0; i < mesh_.nOwned; ++i)
+        if (cover.distance[i] < 0) isLeftOut[i] = isKnown[i] = 1;
     for (const CutElement& cut : cover.cuts)
         for (int a = 0; a <= mesh_.dim; ++a)
         {
             const int i = mesh_.elements[std::size_t(cut.element)*(mesh_.dim + 1) + a];
-            if (i < mesh_.nOwned && !isLeftOut[i] && !isBoundaryNode_[i]) isLeftOut[i] = fluidShare(cover, i) < leastShare;
+            if (i >= mesh_.nOwned || isKnown[i]) continue;
+            isKnown[i] = 1;
+            isLeftOut[i] = fluidShare(cover, i) < leastShare;
         }
     halo_.update(isLeftOut, 1);
     return isLeftOut;

@@ -4,9 +4,9 @@
 /// A pocket without a node that has whole elements around it, and that no node outside the solids joins to fluid elsewhere, has a pressure level of its own, and nothing fixes it but the bodies
 /// around: their motion must keep the pocket's volume to the last bit, at any time step. No pocket of that size has a meaning (gaps below the mesh carry what the mesh can carry),
 /// beside structures alone there is no solution, beside bodies none that iterations find. So pockets are open to the pressure of the fluid around, for what it does to the solids.
-/// That is taken through the solids and balances neither weight nor motion within the pocket: a pocket around a single node, a hundredth of an element deep, went from 0.05 to 10 m/s
-/// in a step. The fluid of a pocket therefore moves with the nearest solid. Nodes in solids that a pocket shares with fluid elsewhere are left to that: as joined to it through them, pockets
-/// have had 1e5 Pa and 90 m/s.
+/// That is taken through the solids and balances neither weight nor motion within the pocket: at the corners of a pocket around a single node, a hundredth of an element deep, 0.05 became
+/// 16 m/s in a step. The fluid of a pocket therefore moves with the nearest solid. Nodes in solids that a pocket shares with fluid elsewhere are left to that: as joined to it through them, pockets
+/// have had 1e5 Pa and 110 m/s.
 /// Gaps between solids of less than a fiftieth of an element are pockets, too, open at their ends or not: what solids that move against each other press out of them is as fast as the gap is
 /// thin, and what would hold it back, friction, is not resolved.
 #pragma once
