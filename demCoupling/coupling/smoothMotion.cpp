@@ -7,6 +7,8 @@ namespace flotsam
 namespace
 {
 
+constexpr double pull = 0.25;   // of the fluid's motion towards the engine's in a step, where contact has not quite converged
+
 Motion meanMotion(const BodyState& before, const BodyState& after, double dt)
 {
     const Eigen::AngleAxisd turn(after.pose.orientation*before.pose.orientation.conjugate());
@@ -59,7 +61,10 @@ void SmoothMotion::accept(const std::vector<Motion>& inFluid, const std::vector<
     for (std::size_t b = 0; b < bodies_.size(); ++b)
     {
         const bool goesOnInFluid = isTouched_[b] && !isFound[b];
-        states_[b] = goesOnInFluid ? withMotion(bodies_[b], engine_[b], inFluid[b]) : found_[b];
+        const Motion &fluid = inFluid[b], &found = found_[b].motion;
+        states_[b] = goesOnInFluid ? withMotion(bodies_[b], engine_[b], {fluid.velocity + pull*(found.velocity - fluid.velocity),
+                                                                         fluid.angularVelocity + pull*(found.angularVelocity - fluid.angularVelocity)})
+                                   : found_[b];
     }
     last_ = foundStep_;
 }

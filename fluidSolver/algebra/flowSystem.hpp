@@ -44,6 +44,15 @@ struct NodeConstraint
     double direction[3][3]; ///< orthonormal; nDirections == dim: the whole vector
 };
 
+inline NodeConstraint wholeVelocity(int node, int dim)
+{
+    NodeConstraint c{};
+    c.node = node;
+    c.nDirections = dim;
+    for (int d = 0; d < dim; ++d) c.direction[d][d] = 1;
+    return c;
+}
+
 struct FlowSystem
 {
     int dim = 3, nDof = 6;

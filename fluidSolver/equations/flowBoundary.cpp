@@ -16,21 +16,6 @@
 namespace flotsam
 {
 
-namespace
-{
-
-/// The whole velocity of a node.
-NodeConstraint wholeVector(int node, int dim)
-{
-    NodeConstraint c{};
-    c.node = node;
-    c.nDirections = dim;
-    for (int d = 0; d < dim; ++d) c.direction[d][d] = 1;
-    return c;
-}
-
-} // namespace
-
 void FlowEquation::buildConstraints()
 {
     const int dim = mesh_.dim;
@@ -58,7 +43,7 @@ void FlowEquation::buildConstraints()
         }
     }
     for (int i = 0; i < mesh_.nNodes; ++i)
-        if (isFixed[i]) constraints_.push_back(wholeVector(i, dim));
+        if (isFixed[i]) constraints_.push_back(wholeVelocity(i, dim));
     std::vector<int> isEdge(mesh_.nNodes, 0);
     for (const auto& [node, normals] : slip)
     {
@@ -89,7 +74,7 @@ void FlowEquation::holdPockets()
     system_.constraints.resize(nPatchConstraints_);
     if (!step_.pockets || !step_.pockets->areAny()) return;
     for (int i = 0; i < mesh_.nOwned; ++i)
-        if (step_.pockets->isNode(i)) system_.constraints.push_back(wholeVector(i, mesh_.dim));
+        if (step_.pockets->isNode(i)) system_.constraints.push_back(wholeVelocity(i, mesh_.dim));
 }
 
 /// Velocity of the nearest solid and pressure of the pockets' nodes. Before the patches' values, which count where a node has both.

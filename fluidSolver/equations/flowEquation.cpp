@@ -81,6 +81,7 @@ void FlowEquation::assemble(const FlowStepData& step)
     fixGasEdge();
     fixPressures();
     holdPockets();
+    findLayers();
     findFilms();
     if (mesh_.dim == 2)
     {
@@ -90,6 +91,7 @@ void FlowEquation::assemble(const FlowStepData& step)
         assembleGasEdge<2>();
         assembleFilms<2>();
         assembleWalls<2>();
+        assembleLayers<2>();
         keepSweptMass<2>();
         removeMassDefect<2>();
         assembleGhosts<2>();
@@ -102,6 +104,7 @@ void FlowEquation::assemble(const FlowStepData& step)
         assembleGasEdge<3>();
         assembleFilms<3>();
         assembleWalls<3>();
+        assembleLayers<3>();
         keepSweptMass<3>();
         removeMassDefect<3>();
         assembleGhosts<3>();
@@ -336,5 +339,8 @@ void FlowEquation::fineScale(const std::vector<double>& x, std::vector<double>& 
     result.resize(std::size_t(mesh_.nElements)*mesh_.dim);
     if (mesh_.dim == 2) fineScaleT<2>(x, result); else fineScaleT<3>(x, result);
 }
+
+template void FlowEquation::addVelocity<2>(int, double);
+template void FlowEquation::addVelocity<3>(int, double);
 
 } // namespace flotsam

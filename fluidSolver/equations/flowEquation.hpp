@@ -73,6 +73,13 @@ private:
     template<int D> void assembleWalls();
     template<int D> void addFacetGroup(const FacetGroup<D>& group, const Solid& solid, const double* q, SolidCoupling& coupling);
     template<int D> void sumSwept();
+    void findLayers();
+    std::vector<int> findLayerNodes() const;
+    void findLayerShares();
+    template<int D> void assembleLayers();
+    template<int D> void addLayerElement(int e, double share);
+    template<int D> void coupleLayers(int s);
+    template<int D> void addConductance(int a, int b, double conductance, double hydrostatic);
     template<int D> void assembleGhosts();
     void findFilms();
     template<int D> void assembleFilms();
@@ -121,6 +128,9 @@ private:
     ViscousForce viscousForce_;
     std::vector<double> defect_;                // owned nodes: see massDefect()
     std::vector<FilmPair> films_;
+    struct LayerElement { int element; double share; }; // share of the solids' surface there that they cover of each other
+    std::vector<LayerElement> layers_;
+    std::vector<char> isLayerNode_;             // nNodes, empty: no layers on any rank; nodes of layers in solids and pockets
     std::vector<int> placeInSolid_;             // nNodes: in the coupling being assembled, else -1
     std::vector<double> mass_, swept_;          // owned nodes: inertia of the fluid there; what moving surfaces take from it, a half [kg/s]
     std::vector<double> sweptOfCut_;            // that half at the corners of every cut element, negative where fluid appears

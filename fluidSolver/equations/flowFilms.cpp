@@ -51,10 +51,17 @@ void FlowEquation::findFilms()
 template<int D>
 void FlowEquation::addFilm(int a, int b, double conductance, const double* force)
 {
-    constexpr int B = D + 1;
     double hydrostatic = 0;
     for (int d = 0; d < D; ++d) hydrostatic += force[d]*difference(mesh_, a, b, d);
     films_.push_back({a, b, conductance, hydrostatic});
+    addConductance<D>(a, b, conductance, hydrostatic);
+}
+
+/// Volume flux from node a to b: conductance (p_a - p_b - hydrostatic), into the continuity rows of both.
+template<int D>
+void FlowEquation::addConductance(int a, int b, double conductance, double hydrostatic)
+{
+    constexpr int B = D + 1;
     for (const auto& [i, j, sign] : {std::tuple(a, b, 1), std::tuple(b, a, -1)})
     {
         if (i >= mesh_.nOwned) continue;
@@ -99,6 +106,8 @@ void FlowEquation::assembleFilms()
         for (std::size_t f = 0; f < patch.faceElement.size() && patch.type == "wall"; ++f) addFilmFace<D>(patch, f);
 }
 
+template void FlowEquation::addConductance<2>(int, int, double, double);
+template void FlowEquation::addConductance<3>(int, int, double, double);
 template void FlowEquation::assembleFilms<2>();
 template void FlowEquation::assembleFilms<3>();
 

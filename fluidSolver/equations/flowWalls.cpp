@@ -39,21 +39,6 @@ struct FacetMotion
     }
 };
 
-/// Place of a node in the solid's coupling, which gets it if it has not. position: nNodes, -1 for nodes that have none.
-template<int D>
-int placeOf(int node, std::vector<int>& position, SolidCoupling& coupling)
-{
-    constexpr int width = (D + 1)*RigidArm<D>::nDof;
-    if (position[node] < 0)
-    {
-        position[node] = int(coupling.node.size());
-        coupling.node.push_back(node);
-        coupling.column.resize(coupling.column.size() + width);
-        coupling.row.resize(coupling.row.size() + width);
-    }
-    return position[node];
-}
-
 } // namespace
 
 /// One facet group's terms. q: motion of its solid; coupling: of its solid.

@@ -2,8 +2,11 @@
 /// Rigid motions of solids at the nodes, and the solids' rows and columns from the blocks of the nodes at their surface: action equals reaction.
 #pragma once
 
+#include "algebra/flowSystem.hpp"
 #include "core/simplexMesh.hpp"
 #include "geometry/solid.hpp"
+
+#include <algorithm>
 
 namespace flotsam
 {
@@ -28,6 +31,17 @@ struct RigidArm
         const std::array<double, 3> x = mesh.spacePoint(node);
         const double orientation = D == 2 ? planeOrientation(mesh) : 1;
         for (int d = 0; d < D; ++d) r[d] = orientation*(x[mesh.axes[d]] - solid.pose.position[mesh.axes[d]]);
+    }
+
+    /// At the point of an element with these shape functions.
+    RigidArm(const SimplexMesh& mesh, const Solid& solid, const int* nodes, const double* shape)
+    {
+        std::fill(r, r + D, 0.0);
+        for (int a = 0; a <= D; ++a)
+        {
+            const RigidArm arm(mesh, solid, nodes[a]);
+            for (int d = 0; d < D; ++d) r[d] += shape[a]*arm.r[d];
+        }
     }
 
     /// V + omega x r.
@@ -97,5 +111,20 @@ struct RigidBlocks
         }
     }
 };
+
+/// Place of a node in the solid's coupling, which gets it if it has not. position: nNodes, -1 for nodes that have none.
+template<int D>
+int placeOf(int node, std::vector<int>& position, SolidCoupling& coupling)
+{
+    constexpr int width = (D + 1)*RigidArm<D>::nDof;
+    if (position[node] < 0)
+    {
+        position[node] = int(coupling.node.size());
+        coupling.node.push_back(node);
+        coupling.column.resize(coupling.column.size() + width);
+        coupling.row.resize(coupling.row.size() + width);
+    }
+    return position[node];
+}
 
 } // namespace flotsam

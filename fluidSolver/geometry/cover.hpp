@@ -35,6 +35,16 @@ struct CutFacet
     double shape[3][4]; ///< shape functions of the element at the points
 };
 
+/// A piece of a moving solid's surface in an element that other solids share, where what they leave of it is not what it is alone: bodies that lie on each other or
+/// on structures leave no element between. Pieces of the solid alone have their area, those that the cover has (CutFacet) the opposite: what is left of the sum is covered.
+struct CoveredFacet
+{
+    int element;
+    int solid, other;   ///< the moving (free, prescribed) solid; of the others in the element the nearest
+    double area[3];     ///< vector into the solid, in-plane components [m^(dim-1)]
+    double shape[4];    ///< shape functions of the element at the centroid
+};
+
 /// Interior face of two active elements of which at least one is cut.
 struct GhostFace { int face; double area; double normal[3]; /* from element[0] to element[1] */ };
 
@@ -55,6 +65,7 @@ struct Cover
     std::vector<CutElement> cuts;
     std::vector<CutFacet> facets;       ///< a 3D quadrilateral cut is two facets
     std::vector<GhostFace> ghostFaces;
+    std::vector<CoveredFacet> coveredFacets;    ///< of owned and of inner elements
     std::vector<char> isActiveNode;     ///< nNodes: some element with a fluid part holds the node
     std::vector<FilmNode> filmNodes;    ///< on walls, a loose solid less than an element over them: see WallFilm
     std::vector<double> solidVolume;    ///< per solid: sum over owned elements of the part it cuts out, all ranks [m^dim]

@@ -307,6 +307,7 @@ const Cover& CoverBuilder::cutMovingSolids(const std::vector<Solid>& solids)
     findActiveNodes(cover_, touchedElements_);
     shareActiveNodes(cover_);
     findGhostFaces(cover_);
+    findCovered(cover_, solids);
     sumTotals(cover_, std::move(totals), static_cast<int>(solids.size()));
     return cover_;
 }

@@ -79,6 +79,15 @@ private:
     const KnownVolume& known(const Solid& solid);
     OwnCut cutAlone(const Solid& solid, const std::vector<Sample>& samples);
     template <int dim> void addAlone(OwnCut& own, const Solid& solid, int element) const;
+    template <class Visit> void forEachElementAlone(const Solid& solid, const std::vector<Sample>& samples, Visit visit);
+    template <int dim, class Visit> void visitCutAlone(const Solid& solid, int element, Visit visit) const;
+    void findCovered(Cover& cover, const std::vector<Solid>& solids);
+    void addCovered(Cover& cover, const std::vector<Solid>& solids, int solid, int element, double area, const double* normal, const double (*shape)[4]) const;
+    template <int dim> void addAlone(Cover& cover, const std::vector<Solid>& solids, int solid, int element) const;
+    void subtractCut(Cover& cover, const std::vector<Solid>& solids, int solid, int element) const;
+    bool isShared(const Cover& cover, int solid, int element) const;
+    int nearestOther(const Cover& cover, const std::vector<Solid>& solids, int solid, int element, const double* shape) const;
+    Vec3 pointIn(int element, const double* shape) const;
     bool moveSurface(OffsetSearch& search, Solid& solid, const OwnCut& own);
     const Cover& cutMovingSolids(const std::vector<Solid>& solids);
 
@@ -144,6 +153,54 @@ void CoverBuilder::forEachElementOf(const Sample& sample, double distance, const
     if (distance > 0.75 * bins_.reach(sample.node)) return;
     for (int k = graph_.nodeElementStart[sample.node]; k < graph_.nodeElementStart[sample.node + 1]; ++k)
         if (distance < 0 || isAtEdge(face, graph_.nodeElement[k])) visit(graph_.nodeElement[k]);
+}
+
+/// Owned and inner elements that the solid alone may cut; aloneDistance_ and aloneFace_ are its own meanwhile.
+template <class Visit>
+void CoverBuilder::forEachElementAlone(const Solid& solid, const std::vector<Sample>& samples, Visit visit)
+{
+    for (const Sample& s : samples)
+    {
+        aloneDistance_[s.node] = cutDistance(solid, s);
+        aloneFace_[s.node] = s.face;
+    }
+    ++mark_;
+    for (const Sample& s : samples)
+        forEachElementOf(s, aloneDistance_[s.node], aloneFace_, [&](int e)
+        {
+            if ((mesh_.isOwnedElement[e] || e < mesh_.nInnerElements) && firstVisit(elementMark_, e)) visit(e);
+        });
+    for (const Sample& s : samples)
+    {
+        aloneDistance_[s.node] = farDistance;
+        aloneFace_[s.node] = 0;
+    }
+}
+
+/// visit(moments of the fluid part, facets, their number) of an element that the solid has a part in, within forEachElementAlone().
+template <int dim, class Visit>
+void CoverBuilder::visitCutAlone(const Solid& solid, int element, Visit visit) const
+{
+    double distance[dim + 1];
+    int nSolid = 0;
+    for (int a = 0; a <= dim; ++a)
+    {
+        distance[a] = aloneDistance_[nodesOf(element)[a]];
+        if (distance[a] < 0) ++nSolid;
+    }
+    const SimplexFacet<dim>* none = nullptr;
+    if (nSolid == dim + 1) visit(SimplexMoments<dim>{}, none, 0);
+    else if (isAtEdge(aloneFace_, element))
+    {
+        const EdgeCut<dim> cut = cutAtEdge<dim>(solid, element);
+        visit(cut, cut.facets.data(), static_cast<int>(cut.facets.size()));
+    }
+    else if (nSolid > 0)
+    {
+        const SimplexCut<dim> cut = cutSimplex<dim>(distance, mesh_.volume[element], verticesOf<dim>(element).data(),
+            &mesh_.gradN[std::size_t(element) * (dim + 1) * dim]);
+        visit(cut, cut.facets, cut.nFacets);
+    }
 }
 
 } // namespace flotsam

@@ -139,6 +139,18 @@ void CoverBuilder::storeCut(Cover& cover, const std::vector<Solid>& solids, int 
     c.facetEnd = static_cast<int>(cover.facets.size());
 }
 
+/// In space.
+Vec3 CoverBuilder::pointIn(int element, const double* shape) const
+{
+    Vec3 x = Vec3::Zero();
+    for (int a = 0; a <= mesh_.dim; ++a)
+    {
+        const auto y = mesh_.spacePoint(nodesOf(element)[a]);
+        x += shape[a] * Vec3(y[0], y[1], y[2]);
+    }
+    return x;
+}
+
 int CoverBuilder::solidAt(const Cover& cover, const std::vector<Solid>& solids, int element, const double* shape) const
 {
     const int* nodes = nodesOf(element);
@@ -147,12 +159,7 @@ int CoverBuilder::solidAt(const Cover& cover, const std::vector<Solid>& solids, 
     for (int a = 1; a <= mesh_.dim; ++a) isSame = isSame && cover.nearestSolid[nodes[a]] == nearest;
     if (isSame) return nearest;
 
-    Vec3 x = Vec3::Zero();
-    for (int a = 0; a <= mesh_.dim; ++a)
-    {
-        const auto y = mesh_.spacePoint(nodes[a]);
-        x += shape[a] * Vec3(y[0], y[1], y[2]);
-    }
+    const Vec3 x = pointIn(element, shape);
     double least = 2 * farDistance;
     for (int a = 0; a <= mesh_.dim; ++a)
     {

@@ -68,20 +68,16 @@ const CoverBuilder::KnownVolume& CoverBuilder::known(const Solid& solid)
 template <int dim>
 void CoverBuilder::addAlone(OwnCut& own, const Solid& solid, int element) const
 {
-    double distance[dim + 1];
-    int nSolid = 0;
     Eigen::Matrix<double, 4, dim + 1> nodes = Eigen::Matrix<double, 4, dim + 1>::Zero(); // (1, r) of each
     for (int a = 0; a <= dim; ++a)
     {
         const int i = nodesOf(element)[a];
-        distance[a] = aloneDistance_[i];
-        if (distance[a] < 0) ++nSolid;
-        if (isBoundaryNode_[i] && distance[a] < -touchTolerance * mesh_.h[element]) own.reachesThrough = 1;
+        if (isBoundaryNode_[i] && aloneDistance_[i] < -touchTolerance * mesh_.h[element]) own.reachesThrough = 1;
         nodes(0, a) = 1;
         for (int d = 0; d < dim; ++d) nodes(1 + d, a) = mesh_.x[std::size_t(i) * dim + d] - solid.pose.position[mesh_.axes[d]];
     }
     using Shares = Eigen::Matrix<double, dim + 1, 1>;
-    const auto add = [&](const SimplexMoments<dim>& fluid, const SimplexFacet<dim>* facets, int nFacets)
+    visitCutAlone<dim>(solid, element, [&](const SimplexMoments<dim>& fluid, const SimplexFacet<dim>* facets, int nFacets)
     {
         own.volume += nodes * (Shares::Constant(mesh_.volume[element] / (dim + 1)) - Eigen::Map<const Shares>(fluid.first));
         for (int f = 0; f < nFacets; ++f)
@@ -93,41 +89,17 @@ void CoverBuilder::addAlone(OwnCut& own, const Solid& solid, int element) const
                 own.surface += facets[f].weight[q] * point * point.transpose();
             }
         }
-    };
-    if (nSolid == dim + 1) add({}, nullptr, 0);
-    else if (isAtEdge(aloneFace_, element))
-    {
-        const EdgeCut<dim> cut = cutAtEdge<dim>(solid, element);
-        add(cut, cut.facets.data(), static_cast<int>(cut.facets.size()));
-    }
-    else if (nSolid > 0)
-    {
-        const SimplexCut<dim> cut = cutSimplex<dim>(distance, mesh_.volume[element], verticesOf<dim>(element).data(),
-            &mesh_.gradN[std::size_t(element) * (dim + 1) * dim]);
-        add(cut, cut.facets, cut.nFacets);
-    }
+    });
 }
 
 CoverBuilder::OwnCut CoverBuilder::cutAlone(const Solid& solid, const std::vector<Sample>& samples)
 {
     OwnCut own;
-    for (const Sample& s : samples)
+    forEachElementAlone(solid, samples, [&](int e)
     {
-        aloneDistance_[s.node] = cutDistance(solid, s);
-        aloneFace_[s.node] = s.face;
-    }
-    ++mark_;
-    for (const Sample& s : samples)
-        forEachElementOf(s, aloneDistance_[s.node], aloneFace_, [&](int e)
-        {
-            if (!mesh_.isOwnedElement[e] || !firstVisit(elementMark_, e)) return;
-            mesh_.dim == 2 ? addAlone<2>(own, solid, e) : addAlone<3>(own, solid, e);
-        });
-    for (const Sample& s : samples)
-    {
-        aloneDistance_[s.node] = farDistance;
-        aloneFace_[s.node] = 0;
-    }
+        if (!mesh_.isOwnedElement[e]) return;
+        mesh_.dim == 2 ? addAlone<2>(own, solid, e) : addAlone<3>(own, solid, e);
+    });
     return own;
 }
 

@@ -94,8 +94,8 @@ TEST_CASE("fluid shut in a hole of an element or two: open to the pressure aroun
         lid.solid.shape = makeBox(Vec3::Zero(), Vec3(w + 0.2, 0.1, 1));
         lid.motion = [c, side](double time, Pose& pose, Motion& motion)
         {
-            pose.position = Vec3(c, c + side - 0.1*time, 0.5); // the hole is smaller with every step
-            motion.velocity = Vec3(0, -0.1, 0);
+            pose.position = Vec3(c, c + side - 0.1*std::min(time, 0.1), 0.5); // the hole is smaller with every step, then it stays
+            motion.velocity = Vec3(0, time < 0.1 ? -0.1 : 0, 0);
         };
         CoupledStep run(press.mesh, press.halo, press.fluid, press.controls, press.patches, Scene({cup, lid}, {}, Vec3::Zero()), nullptr, press.timers);
         run.start(restState(press.mesh), true);

@@ -2,7 +2,7 @@
 """Bars that a steady current presses against two pipes: case of one bar and of two, one pinned on the other.
 
 Seen from above, 2D, one layer 0.1 m thick; bars 0.02 m x 0.06 m broadside to 0.1 m/s, nu = 2e-4 m2/s (Re = 30 by the length), pipes of 0.02 m at y = +-0.02 m.
-Run `held`: free bars, almost touching at the start, carried against the pipes; run `fixed`: the bars as structures where they came to rest. A bar at rest hands all its drag on.
+Run `held`: free bars, almost touching at the start, carried against the pipes; run `fixed`: the bars held where they came to rest. A bar at rest hands all its drag on.
 """
 import os
 
@@ -29,15 +29,16 @@ def _pipes(facets):
     return "\n".join(f"    {name} {{ shape {{ type cylinder; end1 (0 {y} -0.01); end2 (0 {y} 0.11); radius 0.01; }} {facets} wall noSlip; }}" for name, y in PIPES.items())
 
 
-def _heldText(names):
-    free = "\n".join(f"""    {name}
+def _text(places):
+    """constant/bodies; places: entries of each bar's place."""
+    bars = "\n".join(f"""    {name}
     {{
         shape       {{ type box; size (0.02 0.06 0.1); }}
         spheres     {{ radius 0.005; spacing 0.005; }}
         density     800;
-        position    ({-START * (i + 1):.6g} 0 0.05);
-    }}""" for i, name in enumerate(names))
-    return f"""contact {{ default {{ stiffness 1e4; restitution 0.2; frictionAngle 30; }} }}
+        {place}
+    }}""" for name, place in places.items())
+    return f"""contact {{ default {{ stiffness 1e6; restitution 0.2; frictionAngle 30; }} }}
 wallPatches none;
 structures
 {{
@@ -45,26 +46,26 @@ structures
 }}
 bodies
 {{
-{free}
+{bars}
 }}"""
 
 
-def _fixedText(root, names, heldFolder):
+def _freePlaces(names):
+    return {name: f"position ({-START * (i + 1):.6g} 0 0.05);" for i, name in enumerate(names)}
+
+
+def _heldPlaces(root, names, heldFolder):
+    """Where the free ones came to rest, held there: with the same pressure between bars and pipes, which structures that touch do not have."""
     if not os.path.isdir(heldFolder):
         raise RuntimeError("needs the run `held` of the same N, kept (--keep) or in the same call")
     history = foam.history(root, heldFolder)
-    text = _pipes("")
+    places = {}
     for name in names:
         x, y, z = history.mean(name, "position", END - LAST)
         q = history.mean(name, "orientation", END - LAST)
-        text += f"""
-    {name}
-    {{
-        shape {{ type box; size (0.02 0.06 0.1); }} wall noSlip;
-        position ({x:.9g} {y:.9g} {z:.9g});
-        orientation {{ axis (0 0 1); angleDeg {np.degrees(2 * np.arctan2(q[3], q[0])):.9g}; }}
-    }}"""
-    return f"structures\n{{\n{text}\n}}"
+        angle = np.degrees(2 * np.arctan2(q[3], q[0]))
+        places[name] = f"position ({x:.9g} {y:.9g} {z:.9g}); orientation {{ axis (0 0 1); angleDeg {angle:.9g}; }} releaseTime {10 * END:g};"
+    return places
 
 
 def heldFolder(folder):
@@ -74,14 +75,15 @@ def heldFolder(folder):
 def files(root, names, run, folder):
     h, growth = THICK / run.n, 1 + 1 / run.n
     upstream = -0.03 * (len(names) + 1)
-    x = around(-0.15, upstream, 0.06, 0.35, h, growth)
-    y = around(-0.1, -0.05, 0.05, 0.1, h, growth)
-    text = _heldText(names) if run.variant == "held" else _fixedText(root, names, heldFolder(folder))
+    aside = 0.37 * h    # no face of a bar on nodes: where the last digit of its place decides which bar has them
+    x = around(-0.15, upstream + aside, 0.06 + aside, 0.35, h, growth)
+    y = around(-0.1, -0.05 + aside, 0.05 + aside, 0.1, h, growth)
+    places = _freePlaces(names) if run.variant == "held" else _heldPlaces(root, names, heldFolder(folder))
     return merged(
         blockMesh(x, y, even(0, 0.1, 1), {"inlet": ("patch", "x-"), "outlet": ("patch", "x+"), "sides": ("wall", "y- y+"), "frontAndBack": ("empty", "z- z+")}),
         field("U", {"inlet": fixed("(0.1 0 0)"), "outlet": "zeroGradient", "sides": "slip", "frontAndBack": "empty"}, "(0.1 0 0)"),
         field("p", {"inlet": "zeroGradient", "outlet": fixed(0), "sides": "zeroGradient", "frontAndBack": "empty"}), oneFluid(2e-4, 1000),
-        bodies(text), control(END, 0.002, maxCo=1, maxDeltaT=0.02))
+        bodies(_text(places)), control(END, 0.002, maxCo=1, maxDeltaT=0.02))
 
 
 def _x(history, name, quantity):
