@@ -263,6 +263,55 @@ TEST_CASE("elements between two solids are counted and their facets belong to th
     CHECK(cutMesh(scene.mesh, scene.graph, scene.halo, solids).nSharedElements == 0);
 }
 
+TEST_CASE("with what others cover of it every body's surface is closed")
+{
+    for (const int dim : {2, 3})
+    {
+        Scene scene(dim, dim == 2 ? 24 : 12);
+        // a box flat on a fixed one and a little in it, a sphere between both and a prescribed box
+        std::vector<Solid> solids = {makeSolid(makeBox(Vec3::Zero(), {1.2, 0.4, 0.9}), {0, -0.5, 0}, Solid::Kind::Fixed), makeSolid(makeBox(Vec3::Zero(), {0.5, 0.3, 0.6}), {0.13, -0.155, 0.02}, Solid::Kind::Free),
+            makeSolid(makeSphere(Vec3::Zero(), 0.2), {-0.33, -0.2, 0}, Solid::Kind::Free), makeSolid(makeBox(Vec3::Zero(), {0.3, 0.4, 0.5}), {-0.62, 0, 0}, Solid::Kind::Prescribed)};
+        for (Solid& solid : solids) solid.pose.orientation = Eigen::Quaterniond::Identity();
+        CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+        const Cover& cover = builder.build(solids);
+        for (std::size_t s = 1; s < solids.size(); ++s)
+        {
+            Eigen::Matrix<double, 4, 3> moments = Eigen::Matrix<double, 4, 3>::Zero(); // of (1, x) over the surface
+            double covered = 0;
+            const auto add = [&](int element, const double* shape, const double* area)
+            {
+                Eigen::Vector4d place(1, 0, 0, 0);
+                for (int a = 0; a <= dim; ++a)
+                    for (int d = 0; d < dim; ++d) place[1 + d] += shape[a] * scene.mesh.x[std::size_t(scene.mesh.elements[std::size_t(element) * (dim + 1) + a]) * dim + d];
+                for (int d = 0; d < dim; ++d) moments.col(d) += area[d] * place;
+            };
+            for (const CutFacet& f : cover.facets)
+            {
+                if (f.solid != int(s) || !scene.mesh.isOwnedElement[f.element]) continue;
+                double shape[4] = {}, area[3];
+                for (int q = 0; q < f.nPoints; ++q)
+                    for (int a = 0; a <= dim; ++a) shape[a] += f.weight[q] / f.area * f.shape[q][a];
+                for (int d = 0; d < dim; ++d) area[d] = f.area * f.normal[d];
+                add(f.element, shape, area);
+            }
+            for (const CoveredFacet& f : cover.coveredFacets)
+            {
+                if (f.solid != int(s) || !scene.mesh.isOwnedElement[f.element]) continue;
+                add(f.element, f.shape, f.area);
+                covered += std::abs(f.area[0]);
+                CHECK(f.other >= 0);
+                CHECK(f.other != f.solid);
+            }
+            scene.halo.sum(moments.data(), 12);
+            covered = scene.halo.sum(covered);
+            const double volume = cutMesh(scene.mesh, scene.graph, scene.halo, {solids[s]}).solidVolume[0];
+            CHECK(covered > 0.01);
+            for (int d = 0; d < dim; ++d)
+                for (int k = 0; k <= dim; ++k) CHECK(moments(k, d) == doctest::Approx(k == d + 1 ? -volume : 0).epsilon(1e-12));
+        }
+    }
+}
+
 TEST_CASE("no solids: all fluid")
 {
     const Scene scene(3, 6);
