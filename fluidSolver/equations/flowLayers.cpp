@@ -41,7 +41,7 @@ void FlowEquation::findLayers()
     isLayerNode_.clear();
     if (!step_.cover || !step_.pockets || !halo_.any(!step_.cover->coveredFacets.empty())) return;
     std::vector<int> isReached(mesh_.nNodes), nodes = findLayerNodes();
-    for (int i = 0; i < mesh_.nNodes; ++i) isReached[i] = step_.cover->distance[i] > 0 && !step_.pockets->isNode(i);
+    for (int i = 0; i < mesh_.nNodes; ++i) isReached[i] = system_.isActive[i] && step_.cover->distance[i] > 0 && !step_.pockets->isNode(i);
     isLayerNode_.assign(mesh_.nNodes, 0);
     for (bool areMore = true; areMore;)
     {
@@ -105,6 +105,7 @@ void FlowEquation::addLayerElement(int e, double share)
         for (int b = a + 1; b < N; ++b)
         {
             if (!isLayerNode_[nodes[a]] && !isLayerNode_[nodes[b]]) continue;   // the flow's
+            if (!system_.isActive[nodes[a]] || !system_.isActive[nodes[b]]) continue;
             double product = 0, hydrostatic = 0;
             for (int d = 0; d < D; ++d)
             {

@@ -12,7 +12,7 @@ COMPUTED = "ten Cate et al. 2002, lattice Boltzmann"
 DIAMETER = 0.015
 #      density, viscosity [Pa s], largest speed [m/s], end [s], time when the largest speed is past [s]
 OILS = {"E1": (970, 0.373, 0.035986, 3.6, 1.2), "E2": (965, 0.212, 0.05718, 2.4, 1.1), "E3": (962, 0.113, 0.087269, 1.7, 1.0), "E4": (960, 0.058, 0.12224, 1.3, 0.95)}
-# the authors' own computations of the same falls in the same box (table II): largest speed over that in unbounded oil, and the latter [m/s]
+# the authors' own computations of the same falls in the same box (table II, as quoted in a public data sheet): largest speed over that in unbounded oil, and the latter [m/s]
 LATTICE_BOLTZMANN = {"E1": (0.894, 0.038), "E2": (0.950, 0.06), "E3": (0.955, 0.091), "E4": (0.947, 0.128)}
 
 title = """Nylon sphere of 15 mm (1120 kg/m3) released from rest in oil, box 0.1 x 0.1 x 0.16 m, its lowest point 0.12 m above the bottom (ten Cate et al. 2002;
