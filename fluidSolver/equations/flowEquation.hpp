@@ -73,6 +73,8 @@ private:
     template<int D> void assembleWalls();
     template<int D> void addFacetGroup(const FacetGroup<D>& group, const Solid& solid, const double* q, SolidCoupling& coupling);
     template<int D> void sumSwept();
+    static constexpr double layerThickness = 0.25;  // of unresolved layers on walls and between solids, over the size of the elements there
+    double layerTime(double height) const;
     void findLayers();
     std::vector<int> findLayerNodes() const;
     void findLayerShares();

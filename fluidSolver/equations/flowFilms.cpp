@@ -17,9 +17,6 @@ namespace flotsam
 namespace
 {
 
-constexpr double layerThickness = 0.25; // over the height of the elements on the wall
-constexpr double fewestSteps = 4;       // in T
-
 double difference(const SimplexMesh& mesh, int a, int b, int d)
 {
     return mesh.x[std::size_t(a)*mesh.dim + d] - mesh.x[std::size_t(b)*mesh.dim + d];
@@ -37,6 +34,14 @@ double stiffness(const SimplexMesh& mesh, const int* nodes, double area, int k, 
 }
 
 } // namespace
+
+/// In which the gradient of pressure and weight makes a layer's speed: sqrt(h/g), a few steps at least [s].
+double FlowEquation::layerTime(double height) const
+{
+    constexpr double fewestSteps = 4;
+    const double g = std::hypot(fluid_.gravity[0], fluid_.gravity[1], fluid_.gravity[2]);
+    return std::max(g > 0 ? std::sqrt(height/g) : 0, fewestSteps*step_.time.dt);
+}
 
 /// Nodes under bodies, before the elements are assembled.
 void FlowEquation::findFilms()
@@ -88,9 +93,8 @@ void FlowEquation::addFilmFace(const MeshPatch& patch, std::size_t f)
     outwardVector(mesh_, patch, f, v);
     for (int d = 0; d < D; ++d) area += v[d]*v[d];
     area = std::sqrt(area);
-    const double height = D*mesh_.volume[e]/area, g = std::hypot(fluid_.gravity[0], fluid_.gravity[1], fluid_.gravity[2]);
-    const double time = std::max(g > 0 ? std::sqrt(height/g) : 0, fewestSteps*step_.time.dt);
-    const double conductance = share*layerThickness*height*time/rho;
+    const double height = D*mesh_.volume[e]/area;
+    const double conductance = share*layerThickness*height*layerTime(height)/rho;
     for (int k = 0; k < D; ++k)
         for (int l = k + 1; l < D; ++l)
             if (const double s = stiffness<D>(mesh_, nodes, area, k, l); s > 0)

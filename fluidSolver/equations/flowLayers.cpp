@@ -15,14 +15,6 @@
 namespace flotsam
 {
 
-namespace
-{
-
-constexpr double layerThickness = 0.25; // over the size of an element
-constexpr double fewestSteps = 4;       // in the time T = sqrt(h/g) that the layer's speed is reached in
-
-} // namespace
-
 /// Owned nodes in solids and pockets, of elements with covered facets.
 std::vector<int> FlowEquation::findLayerNodes() const
 {
@@ -98,9 +90,7 @@ void FlowEquation::addLayerElement(int e, double share)
     const double* grad = &mesh_.gradN[std::size_t(e)*N*D];
     double rho = 0;
     for (int a = 0; a < N; ++a) rho += nodal_.rho[nodes[a]]/N;
-    const double g = std::hypot(fluid_.gravity[0], fluid_.gravity[1], fluid_.gravity[2]);
-    const double time = std::max(g > 0 ? std::sqrt(mesh_.h[e]/g) : 0, fewestSteps*step_.time.dt);
-    const double conductance = share*layerThickness*mesh_.volume[e]*time/rho;
+    const double conductance = share*layerThickness*mesh_.volume[e]*layerTime(mesh_.h[e])/rho;
     for (int a = 0; a < N; ++a)
         for (int b = a + 1; b < N; ++b)
         {
