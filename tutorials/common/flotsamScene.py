@@ -210,6 +210,16 @@ def renderScene(case, time, file, camera="perspective", bounds=None, size=(1600,
     return time
 
 
+def stack(pictures, file, width=1000):
+    """Pictures below each other, small enough for a page."""
+    import matplotlib.image
+    from PIL import Image   # comes with matplotlib
+
+    rows = [matplotlib.image.imread(name)[..., :3] for name in pictures]
+    image = Image.fromarray((255 * np.concatenate(rows)).astype(np.uint8))
+    image.resize((width, round(width * image.height / image.width)), Image.LANCZOS).save(file, optimize=True)
+
+
 def _addLights(renderer, up):
     """One light at the eye, one fixed above the scene: a horizontal bed must not be black in a flat view."""
     renderer.AutomaticLightCreationOff()
