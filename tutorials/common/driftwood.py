@@ -52,11 +52,10 @@ def positions(h):
 
 
 def meanSpeed(h, span):
-    """Distance that the bodies have come within the last `span` seconds over that time, bodies x records [m/s]; since the start at first."""
+    """Distance that the bodies have come within the last `span` seconds over that time, bodies x records [m/s]; inf until then."""
     x = positions(h)
     before = np.array([[np.interp(h.time - span, h.time, body[:, d]) for d in range(3)] for body in x]).transpose(0, 2, 1)
-    elapsed = np.minimum(h.time, span)
-    return np.linalg.norm(x - before, axis=2) / np.where(elapsed > 0, elapsed, np.inf)
+    return np.where(h.time < span, np.inf, np.linalg.norm(x - before, axis=2) / span)
 
 
 def inSpace(body, local):
