@@ -57,9 +57,7 @@ SceneCounts countScene(const BodiesInput& input)
     for (const BodyDefinition& b : input.bodies)
     {
         counts.demSpheres += long(b.spheres.size());
-        const std::array<Vec3, 2> bounds = b.shape->bounds();
-        const double thinnest = (bounds[1] - bounds[0]).minCoeff();
-        if (counts.thinnestBody == 0 || thinnest < counts.thinnestBody) counts.thinnestBody = thinnest;
+        if (counts.thinnestBody == 0 || b.thinnest < counts.thinnestBody) counts.thinnestBody = b.thinnest;
     }
     counts.walls = int(input.walls.size());
     return counts;

@@ -40,6 +40,7 @@ struct BodyDefinition
     double releaseTime = 0;                 ///< held in place until then [s]
     bool isPlanar = false;                  ///< 2D scene: moves in the mesh plane only, see planeAxis
     int planeAxis = 2;                      ///< normal of that plane
+    double thinnest = 0;                    ///< smallest extent [m] (2D: in the plane), of a union that of its thinnest part
 };
 
 /// A structure the bodies can touch. Fixed, or moving as prescribed (then only spheres/planes as the engine can).

@@ -2,6 +2,7 @@
 #include "demCoupling/foam/bodyGroup.H"
 #include "demCoupling/foam/contactReader.H"
 #include "foam/dictionaryChecks.H"
+#include "geometry/primitives.hpp"
 
 #include "List.H"
 
@@ -27,13 +28,14 @@ double readMass(const Foam::dictionary& dict, double volume)
 void readSpheres(const Foam::dictionary& dict, BodyGroup& group)
 {
     double &radius = group.sphereRadius, &spacing = group.sphereSpacing;
-    radius = 0.25*group.thinnest;
+    const double thinnest = group.prototype.thinnest;
+    radius = 0.25*thinnest;
     if (dict.found("spheres"))
     {
         const Foam::dictionary& spheres = dict.subDict("spheres");
         checkKeywords(spheres, {"radius", "spacing"});
-        radius = readNumberOr(spheres, "radius", radius, {0, 0.5*group.thinnest*(1 + 1e-9), true},
-            text("The body's smallest extent is ", group.thinnest, " m: the spheres must fit into it."));
+        radius = readNumberOr(spheres, "radius", radius, {0, 0.5*thinnest*(1 + 1e-9), true},
+            text("The body's smallest extent is ", thinnest, " m, in a union that of its thinnest part: the spheres must fit into it."));
         spacing = readNumberOr(spheres, "spacing", 0, {0, 4*radius, true}, "At most twice the diameter, or bodies pass between the spheres.");
     }
 }
@@ -212,6 +214,16 @@ std::vector<Vec3> readArray(const Foam::dictionary& dict, bool& isArray)
 
 double thinnestExtent(const Shape& shape, const SceneFrame& frame)
 {
+    const auto* placed = dynamic_cast<const PlacedShape*>(&shape);
+    if (const auto* joined = dynamic_cast<const UnionShape*>(placed ? &placed->inner() : &shape))
+    {
+        double thinnest = 1e300;
+        for (const auto& part : joined->parts()) thinnest = std::min(thinnest, thinnestExtent(*part, frame));
+        return thinnest;
+    }
+    if (const auto* cylinder = dynamic_cast<const CylinderShape*>(&shape); cylinder && !frame.isPlanar)
+        return 2*std::min(cylinder->radius(), cylinder->halfLength());
+    if (const auto* capsule = dynamic_cast<const CapsuleShape*>(&shape)) return 2*capsule->radius();
     const auto [lower, upper] = shape.bounds();
     double thinnest = 1e300;
     for (int d = 0; d < 3; ++d)
@@ -257,8 +269,8 @@ BodyGroup readBodyGroup(const std::string& name, const Foam::dictionary& dict, c
     body.material = readMaterial(dict, "material", frame.materials);
     body.isPlanar = frame.isPlanar;
     body.planeAxis = frame.planeAxis;
-    group.thinnest = thinnestExtent(*body.shape, frame);
-    group.sampled = sampleShape(body.shape, group.thinnest);
+    body.thinnest = thinnestExtent(*body.shape, frame);
+    group.sampled = sampleShape(body.shape, body.thinnest);
     readSpheres(dict, group);
     return group;
 }
@@ -275,7 +287,7 @@ void placeMembers(BodyGroup& group, const SceneFrame& frame, Obstacles& obstacle
 void checkMembers(const BodyGroup& group, Obstacles& obstacles)
 {
     // bodies may touch, resting on each other or on a wall: a thousandth of the thickness is allowed
-    const double tolerance = 1e-3*group.thinnest;
+    const double tolerance = 1e-3*group.prototype.thinnest;
     for (const BodyDefinition& body : group.members)
     {
         const ShapeAtPose placed{body.name, group.sampled, body.pose};

@@ -12,12 +12,11 @@ namespace flotsam
 namespace
 {
 
-constexpr double bodyFacet = 0.25;  // facet size of curved bodies over their largest extent, for the animated surface
-
-double facetSize(const Shape& shape)
+/// Of curved bodies, for the animated surface [m]: large bodies in few facets, slender and flat ones round.
+double facetSize(const BodyDefinition& body)
 {
-    const std::array<Vec3, 2> b = shape.bounds();
-    return bodyFacet*(b[1] - b[0]).maxCoeff();
+    const std::array<Vec3, 2> b = body.shape->bounds();
+    return std::min(0.25*(b[1] - b[0]).maxCoeff(), 0.5*body.thinnest);
 }
 
 std::vector<HistoryMember> makeMembers(const BodiesInput& input)
@@ -26,7 +25,7 @@ std::vector<HistoryMember> makeMembers(const BodiesInput& input)
     for (const StructureDefinition& s : input.structures)
         members.push_back({s.solid.name, true, 0, s.solid.shape->moments().volume, s.solid.shape->surface(s.facetSize)});
     for (const BodyDefinition& b : input.bodies)
-        members.push_back({b.name, false, b.mass, b.volume, b.shape->surface(facetSize(*b.shape))});
+        members.push_back({b.name, false, b.mass, b.volume, b.shape->surface(facetSize(b))});
     return members;
 }
 

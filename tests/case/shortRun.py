@@ -15,7 +15,7 @@ speed = np.linalg.norm(flotsam.fields(".", "last", ["U"])["U"], axis=1)
 report.within("largest speed", speed.max(), 1e-6, 5, "m/s")
 if "massError" in h.run:
     report.within("largest mass error", np.abs(h.run["massError"]).max(), 0, 1e-3)
-if name in ("damBreak", "floatingBar", "slitDam"):
+if name in ("damBreak", "floatingBar", "slitDam", "bridgePier"):
     alpha = flotsam.fields(".", "last", [flotsam.ALPHA])[flotsam.ALPHA]
     report.within("smallest phase value", alpha.min(), -1e-9, 1)
     report.within("largest phase value", alpha.max(), 0, 1 + 1e-9)
@@ -43,4 +43,12 @@ elif name == "slitDam":
     report.within("water's force on the pipes", force, 5, 40, "N", "0.5 rho g b (0.17^2 - 0.05^2) = 36 N is the largest")
     held = np.array([h[bar].velocity[-1] for bar in h.bodies if bar.startswith("second")])
     report.within("speed of the bars not yet released", np.abs(held).max(), 0, 1e-12, "m/s")
+elif name == "bridgePier":
+    report.within("logs", len(h.bodies), 16, 16)
+    report.compare("mass of a log with root wad", h["rooted.0"].mass, 650e-9 * np.pi * (35**2 * 24 + 12**2 * (260 - 24)), 1e-4, "kg")
+    # the start field is near the flow around the pier: the force comes down from its first step's
+    report.within("water's force on the pier", h["pier"].fluidForce[-1, 0], 0.5, 30, "N", "1.2 N in steady flow")
+    speed = np.array([h[log].velocity[-1] for log in h.bodies])
+    report.within("mean speed of the logs", speed[:, 0].mean(), 0.40, 0.45, "m/s", "they drift: 0.4375 m/s")
+    report.within("largest vertical speed of a log", np.abs(speed[:, 2]).max(), 0, 0.05, "m/s", "they float at their draft")
 report.end()

@@ -16,7 +16,7 @@ case $1 in
     fallingSphere) end=0.1 ;;
     floatingBar) end=0.1 ;;
     barAgainstPost) end=0.1 ;;
-    slitDam) end=0.02 ;;
+    slitDam | bridgePier) end=0.02 ;;
     *) fail "no tutorial $1" ;;
 esac
 setEntry system/controlDict endTime $end

@@ -73,7 +73,8 @@ TEST_CASE("the spheres of a thin body do not get between those of a thick one")
 {
     Scene s;
     const std::vector<std::string> thick{"type box; size (0.3 0.1 0.12);", "type cylinder; end1 (-0.15 0 0); end2 (0.15 0 0); radius 0.05;",
-        "type union; parts { a { type box; size (0.3 0.1 0.1); } b { type box; size (0.1 0.25 0.1); } }"};
+        "type union; parts { a { type box; size (0.3 0.1 0.1); } b { type box; size (0.1 0.25 0.1); } }",
+        "type union; parts { trunk { type cylinder; end1 (0 0 0); end2 (0.4 0 0); radius 0.05; } wad { type cylinder; end1 (0 0 0); end2 (0.1 0 0); radius 0.15; } }"};
     for (const std::string& shape : thick)
         for (const double thinner : {1.0, 1.5, 2.0, 4.0, 7.0})
         {
@@ -93,6 +94,20 @@ TEST_CASE("the spheres of a thin body do not get between those of a thick one")
             }
             CHECK(farthest < 1);
         }
+}
+
+TEST_CASE("spheres of a union are as fine as its thinnest part demands")
+{
+    Scene s;
+    const auto spheres = [&](const std::string& shape) { return s.read(bodies("shape { " + shape + " } density 600; position (1 0.5 0.2);")).bodies[0].spheres; };
+    const std::string trunk = "type cylinder; end1 (0 0 0); end2 (0.3 0 0); radius 0.02;", wad = "type cylinder; end1 (-0.1 0 0); end2 (0.1 0 0); radius 0.1;";
+    const double radius = spheres(trunk)[0].radius;
+    CHECK(radius == doctest::Approx(0.01));
+    for (const SurfaceSphere& sphere : spheres("type union; parts { a { " + trunk + " } b { " + wad + " } }")) CHECK(sphere.radius == doctest::Approx(radius));
+    // a root that points aslant: its bounding box is no measure of its thickness
+    for (const SurfaceSphere& sphere : spheres("type union; parts { a { type cylinder; end1 (0 0 0); end2 (0.1 0.1 0.1); radius 0.02; } b { " + wad + " } }"))
+        CHECK(sphere.radius == doctest::Approx(radius));
+    CHECK(has(s.message(bodies("shape { type union; parts { a { " + trunk + " } b { " + wad + " } } } density 600; spheres { radius 0.03; }")), "smallest extent is 0.04 m"));
 }
 
 TEST_CASE("one body: mass, inertia, spheres, pose")

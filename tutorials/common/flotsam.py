@@ -152,19 +152,30 @@ def _array(data, name, what):
     return vtk_to_numpy(data.GetArray(name))
 
 
-def fields(case, time, names):
-    """{name: cell values} and "centre" (n x 3), "volume" (n) of the cells."""
+_cells = {}     # centres and volumes: the mesh is the same at all times, and VTK takes its time over them
+
+
+def _centresAndVolumes(case, time):
     mesh = grid(case, time)
-    result = {name: _array(mesh.GetCellData(), name, f"{case} at {time}") for name in names}
+    key = (os.path.abspath(case), tuple(_parts(case, nearestTime(case, time))), mesh.GetNumberOfCells())
+    if key in _cells:
+        return _cells[key]
     centres = vtk.vtkCellCenters()
     centres.SetInputData(mesh)
     centres.VertexCellsOff()
     centres.Update()
-    result["centre"] = vtk_to_numpy(centres.GetOutput().GetPoints().GetData())
     sizes = vtk.vtkCellSizeFilter()
     sizes.SetInputData(mesh)
     sizes.Update()
-    result["volume"] = vtk_to_numpy(sizes.GetOutput().GetCellData().GetArray("Volume"))
+    _cells[key] = (vtk_to_numpy(centres.GetOutput().GetPoints().GetData()), vtk_to_numpy(sizes.GetOutput().GetCellData().GetArray("Volume")))
+    return _cells[key]
+
+
+def fields(case, time, names):
+    """{name: cell values} and "centre" (n x 3), "volume" (n) of the cells."""
+    mesh = grid(case, time)
+    result = {name: _array(mesh.GetCellData(), name, f"{case} at {time}") for name in names}
+    result["centre"], result["volume"] = _centresAndVolumes(case, time)
     return result
 
 

@@ -96,7 +96,7 @@ def waterBody(case, time, alpha=flotsam.ALPHA, level=0.5):
 
 
 def memberSurfaces(history, time):
-    """[(name, isStructure, vtkPolyData)] of the bodies and structures at the surface record nearest to `time`."""
+    """[(name, isStructure, vtkPolyData)] of the bodies and structures at the surface record nearest to `time`, but bodies that have left."""
     stored = history.surface
     if not stored or not len(stored["time"]):
         return []
@@ -108,7 +108,8 @@ def memberSurfaces(history, time):
         for name in names:
             member = history[("structures/" if isStructure else "bodies/") + name]
             triangles = stored["triangles"][stored["member"] == member.number]
-            if len(triangles):
+            hasLeft = hasattr(member, "left") and np.interp(stored["time"][k], history.time, member.left) > 0.5
+            if len(triangles) and not hasLeft:
                 result.append((name, isStructure, _polyData(points, triangles)))
     return result
 
@@ -208,6 +209,16 @@ def renderScene(case, time, file, camera="perspective", bounds=None, size=(1600,
     _addLights(renderer, up)
     _writePng(renderer, file, size)
     return time
+
+
+def stack(pictures, file, width=1000):
+    """Pictures below each other, small enough for a page."""
+    import matplotlib.image
+    from PIL import Image   # comes with matplotlib
+
+    rows = [matplotlib.image.imread(name)[..., :3] for name in pictures]
+    image = Image.fromarray((255 * np.concatenate(rows)).astype(np.uint8))
+    image.resize((width, round(width * image.height / image.width)), Image.LANCZOS).save(file, optimize=True)
 
 
 def _addLights(renderer, up):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What must hold in the two runs of the flume."""
+import driftwood
 import flume
 import numpy as np
 from tutorial import parameters
@@ -13,7 +14,7 @@ def check(report, runs):
     for name, run in runs.items():
         end = parameters(flume.CASES[name], "system/controlDict")["endTime"]
         report.within(f"time reached, {name}", run["time"][-1], end - 1e-6, end + 1e-6, "s", "endTime")
-        report.within(f"water neither made nor lost, {name}", flume.massError(run["history"]), 0, MASS, source="conservation")
+        report.within(f"water neither made nor lost, {name}", driftwood.massError(run["history"]), 0, MASS, source="conservation")
     _checkBars(report, runs["with bars"])
     _checkWater(report, runs["with bars"], runs["without bars"])
 

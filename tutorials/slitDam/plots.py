@@ -1,22 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Plots of the two runs of the flume."""
-import flotsam  # first: its message when packages are missing
+import driftwood  # first: its message when packages are missing
 import flume
 import matplotlib
+import momentum
 import numpy as np
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
-from PIL import Image   # comes with matplotlib
 
 STYLE = {"with bars": "-", "without bars": "--"}
-
-
-def scenes(pictures, file):
-    """Pictures below each other, small enough for a page."""
-    rows = [plt.imread(name)[..., :3] for name in pictures]
-    image = Image.fromarray((255 * np.concatenate(rows)).astype(np.uint8))
-    image.resize((1000, round(1000 * image.height / image.width)), Image.LANCZOS).save(file, optimize=True)
 
 
 def profiles(runs, times, file):
@@ -29,13 +22,13 @@ def profiles(runs, times, file):
         for name, run in runs.items():
             level = bed + flume.meanDepth(flume.CASES[name], time, x)
             a.plot(x, level, "C0" + STYLE[name], label=f"water, {name}")
-        critical = ((flume.setup["discharge"] / flume.setup["width"])**2 / flume.GRAVITY)**(1 / 3)
+        critical = ((flume.setup["discharge"] / flume.setup["width"])**2 / momentum.GRAVITY)**(1 / 3)
         a.plot(x, bed + critical, "k:", lw=0.8, label="critical depth of the inflow")
         h = runs["with bars"]["history"]
         half = 0.5 * flume.setup["barLength"]
         for name in h.bodies:
             centre = h.at(name, "position", time)
-            axis = flume.turned(h.at(name, "orientation", time), np.array([0, half, 0]))
+            axis = driftwood.turned(h.at(name, "orientation", time), np.array([0, half, 0]))
             ends = np.array([centre - axis, centre + axis])
             a.plot(ends[:, 0], ends[:, 2] - flume.setup["slope"] * ends[:, 0], color=(0.52, 0.33, 0.16), lw=2.5, solid_capstyle="round")
         radius = 0.5 * flume.setup["pipeDiameter"]
@@ -49,14 +42,6 @@ def profiles(runs, times, file):
     plt.close(figure)
 
 
-def _smooth(time, values, span=0.1):
-    """Means over intervals: contact forces are made of short impacts."""
-    edges = np.arange(0, time[-1] + span, span)
-    number = np.digitize(time, edges)
-    used = np.unique(number)
-    return np.array([time[number == k].mean() for k in used]), np.array([values[..., number == k].mean(-1) for k in used]).T
-
-
 def series(runs, file):
     """Levels, discharge, captured bars and forces over time."""
     figure, axes = plt.subplots(3, 2, figsize=(12, 10), sharex=True)
@@ -66,18 +51,18 @@ def series(runs, file):
         style = STYLE[name]
         axes[0, 0].plot(run["time"], 100 * run["depth"][:, 0], "C0" + style, label=f"upstream, {name}")
         axes[0, 0].plot(run["time"], 100 * run["depth"][:, 1], "C1" + style, label=f"downstream, {name}")
-        time, inflow, outflow = flume.discharge(run["history"])
+        time, inflow, outflow = driftwood.discharge(run["history"])
         axes[0, 1].plot(time, 1000 * outflow, "C1" + style, label=f"out, {name}")
-        axes[1, 1].plot(*_smooth(run["history"].time, run["water"].sum(0)), "C0" + style, label=f"water, {name}")
+        axes[1, 1].plot(*driftwood.smooth(run["history"].time, run["water"].sum(0)), "C0" + style, label=f"water, {name}")
     axes[0, 1].plot(time, 1000 * inflow, "k:", label="in")
     axes[0, 0].set(ylabel="water depth [cm]", title=f"{-flume.UPSTREAM} m upstream and {flume.DOWNSTREAM} m downstream of the pipes")
     axes[0, 1].set(ylabel="discharge [l/s]", title="discharge", ylim=(0, None))
     axes[1, 0].plot(h.time, 100 * flume.captureRatio(h))
     axes[1, 0].set(ylabel="share of the bars [%]", ylim=(0, 102), title=f"bars less than {flume.REACH} m upstream of the pipes")
-    axes[1, 1].plot(*_smooth(h.time, barred["contact"].sum(0)), "C3", label="bars")
+    axes[1, 1].plot(*driftwood.smooth(h.time, barred["contact"].sum(0)), "C3", label="bars")
     axes[1, 1].set(ylabel="force along the flume [N]", title="all pipes, means over 0.1 s")
     for axis, values, title in ((axes[2, 0], barred["water"], "water"), (axes[2, 1], barred["contact"], "bars")):
-        time, forces = _smooth(h.time, values)
+        time, forces = driftwood.smooth(h.time, values)
         for k, force in enumerate(forces):
             axis.plot(time, force, f"C{k}", label=f"pipe {k + 1}")
         axis.set(xlabel="time [s]", ylabel="force along the flume [N]", title=f"each pipe, {title}, with bars")
