@@ -45,10 +45,11 @@ echo 'flotsam { surfaceTimeOrder 2; }' >> whole/system/fvSolution # its mass flu
 stopAndGoOn whole 0.02 0.04
 
 makeFloatingBar touching
+sed -i 's/density .*590;/& velocity (0 -0.4 0);/' touching/constant/bodies     # else it floats without touching
 cat >> touching/constant/bodies << 'EOF'
 structures
 {
-    edge { shape { type box; size (0.01 0.01 0.05); } position (0.004 -0.0175 0.025); }
+    edge { shape { type box; size (0.01 0.01 0.05); } position (-0.002 -0.018 0.025); }
 }
 EOF
 fixedSteps touching 0.001 0.08 20
