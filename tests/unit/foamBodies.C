@@ -224,6 +224,8 @@ TEST_CASE("gaps of placed shapes")
     const Pose through{Vec3(0, 0, 0.08), crossed.orientation};
     CHECK(gap({"", box, {}}, {"", box, through}, 1) == doctest::Approx(-0.02));
     CHECK(gap({"", box, {}}, {"", box, {Vec3(9, 0, 0), {1, 0, 0, 0}}}, 0.5) == 0.5);
+    CHECK(gap({"", box, {}}, {"", box, {}}, 0) == doctest::Approx(-0.05)); // in the same place: no point of a surface is inside the other
+    CHECK(gap({"", box, {}}, {"", box, {Vec3(0, 0, 0.1), {1, 0, 0, 0}}}, 0) == doctest::Approx(0));
 }
 
 TEST_CASE("structures that overlap, touch, or lie in others")
