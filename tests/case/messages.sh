@@ -35,6 +35,7 @@ refused keyword 'setNumerics . "nitscheGama 10;"' \
 refused range 'setNumerics . "tolerance -1;"' \
     fvSolution tolerance -1
 refused missingField 'rm 0/p_rgh' p_rgh
+refused alphaRange 'sed "s/^internalField .*/internalField uniform 2;/" 0.orig/alpha.water > 0/alpha.water' alpha.water 'from 0 to 2' 'from 0 to 1'
 refused missingTime 'setEntry system/controlDict startFrom startTime; setEntry system/controlDict startTime 0.7' \
     'Time folder' 0.7 'there are: 0$' startTime
 refused unknownCondition 'sed -i "s/pressureInletOutletVelocity/waveVelocity/" 0/U' \
