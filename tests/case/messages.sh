@@ -70,6 +70,10 @@ grep -q 'Start at time 0.002: the stored state continues, exactly' other/log.flo
 (cd other && flotsamFoam -dry-run) > /dev/null 2>&1 && fail "the dry run accepts a state of other bodies"
 (cd other && flotsamFoam) > other.log 2>&1 && fail "a state of other bodies is accepted"
 grep -q "differs was 'bar', is 'log'" other.log || fail "a state of other bodies: no word"
+rm -rf tiny && cp -r good tiny
+setEntry tiny/system/controlDict maxBodyCo 1e-12
+(cd tiny && flotsamFoam) > tiny.log 2>&1 && fail "a time step below minDeltaT is accepted"
+grep -q 'limits the time step to [0-9.]*e-[0-9]* s .* minDeltaT .* 1e-09 s' tiny.log || fail "a time step below minDeltaT: no numbers"
 rm -rf misnamed && cp -r good misnamed && mv misnamed/constant/bodies misnamed/constant/bodiesDict
 (cd misnamed && quietly flotsamFoam -dry-run && grep -q 'constant/bodiesDict is not read' log.flotsamFoam) || fail "a misnamed constant/bodies is not mentioned"
 
