@@ -9,6 +9,7 @@
 #include "foam/boundaryReader.H"
 #include "foam/caseCheck.H"
 #include "foam/cellCost.H"
+#include "foam/dictionaryChecks.H"
 #include "foam/fieldIO.H"
 #include "foam/writeTimes.H"
 
@@ -92,8 +93,7 @@ StepResult advance(CoupledStep& step, const TimeControls& time, double& dt, RunO
         output.countRejected(result.failure, dt);
         dt *= retryFactor;
         if (retry == maxRetries || dt < time.minDeltaT)
-            throw std::runtime_error("no step could be made from t = " + std::to_string(step.fluid().state().time)
-                + " s: " + result.failure + " down to a step of " + std::to_string(dt/retryFactor) + " s");
+            throw std::runtime_error(text("no step could be made from t = ", step.fluid().state().time, " s: ", result.failure, " down to a step of ", dt/retryFactor, " s"));
     }
 }
 
@@ -202,10 +202,9 @@ void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         const CourantNumbers rates = courantRates(step);
         auto [wanted, limit] = nextTimeStep(rates, time, dt);
         if (wanted < time.minDeltaT)
-            throw std::runtime_error("the flow limits the time step to " + std::to_string(wanted) + " s at t = "
-                + std::to_string(runTime.value()) + " s, below minDeltaT of system/controlDict: "
-                + step.fluid().describeFastest() + ". The solution has become unstable there: look at the last written fields,"
-                " reduce maxCo, or refine the mesh");
+            throw std::runtime_error(text("the flow limits the time step to ", wanted, " s at t = ", runTime.value(), " s, below minDeltaT of system/controlDict, ",
+                time.minDeltaT, " s: ", step.fluid().describeFastest(), ". The solution has become unstable there: look at the last written fields,"
+                " reduce maxCo, or refine the mesh"));
         double used = writeTimes.setStep(wanted);
         if (used < 0.999*wanted) limit = "write";
         const double before = used;

@@ -35,6 +35,13 @@ Scene::Scene(std::vector<SceneStructure> structures, const std::vector<BodyDefin
     }
 }
 
+namespace
+{
+
+constexpr double farAway = 1e9; // [m]; of bodies that have left: just outside the mesh they were the nearest solid to facets of others that leave
+
+} // namespace
+
 void Scene::place(double time, const BodyCoupling* coupling)
 {
     for (std::size_t s = 0; s < structures_.size(); ++s)
@@ -47,6 +54,7 @@ void Scene::place(double time, const BodyCoupling* coupling)
         solid.kind = coupling->isHeld(int(b)) ? Solid::Kind::Prescribed : Solid::Kind::Free;
         solid.pose = state.pose;
         solid.motion = coupling->isHeld(int(b)) ? Motion() : state.motion;
+        if (coupling->isGone(int(b))) solid.pose.position.setConstant(farAway);
     }
 }
 

@@ -166,8 +166,7 @@ SceneFrame makeFrame(const Foam::polyMesh& mesh, const SimplexMesh& simplexMesh,
     frame.midPlane = simplexMesh.planeOffset;
     frame.thickness = simplexMesh.thickness;
     if (gravity.norm() > 0) frame.up = -gravity.normalized();
-    frame.stlFolder = mesh.time().path()/mesh.time().caseConstant()/"triSurface";
-    if (Foam::Pstream::parRun()) frame.stlFolder = mesh.time().globalPath()/mesh.time().caseConstant()/"triSurface";
+    frame.stlFolder = mesh.time().globalPath()/mesh.time().constant()/"triSurface";
     return frame;
 }
 

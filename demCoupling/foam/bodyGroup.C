@@ -15,6 +15,8 @@ namespace flotsam
 namespace
 {
 
+constexpr double largestCount = 1e6;    // members of a group: a slip of the pen must not take all of the memory
+
 const std::vector<std::string> bodyKeywords{"shape", "density", "mass", "material", "spheres", "position", "orientation", "velocity",
     "angularVelocity", "releaseTime", "array", "poses", "random"};
 
@@ -120,7 +122,7 @@ RandomPlacement readRandom(const Foam::dictionary& dict)
     checkKeywords(dict, {"count", "box", "seed", "minGap", "tries", "orientation", "release"});
     RandomPlacement r;
     dict.get<Foam::label>("count");
-    r.count = readCountOr(dict, "count", 1, {1, 1e6});
+    r.count = readCountOr(dict, "count", 1, {1, largestCount});
     r.tries = readCountOr(dict, "tries", 1000, {1, 1e7});
     r.seed = readCountOr(dict, "seed", 1, {0, 2147483647});
     r.minGap = readNumberOr(dict, "minGap", 0, notNegative);
@@ -205,6 +207,7 @@ std::vector<Vec3> readArray(const Foam::dictionary& dict, bool& isArray)
     for (int d = 0; d < 3; ++d)
         if (count[d] < 1 || count[d] != std::floor(count[d]))
             failIn(array, text("Entry 'count' has ", count[d], " along ", "xyz"[d], ": whole numbers, at least 1, for instance (1 7 1)."));
+    if (count.prod() > largestCount) failIn(array, text("Entry 'count' makes ", count.prod(), " members: at most ", largestCount, " are possible."));
     std::vector<Vec3> offsets;
     for (int k = 0; k < count[2]; ++k)
         for (int j = 0; j < count[1]; ++j)

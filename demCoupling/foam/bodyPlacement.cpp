@@ -32,6 +32,14 @@ double oneSidedGap(const ShapeAtPose& a, const ShapeAtPose& b, double farther)
     return smallest;
 }
 
+/// Of a point in the middle of a, where it lies in both: bodies in the same place have all points of their surfaces on each other's.
+double gapOfMiddle(const ShapeAtPose& a, const ShapeAtPose& b)
+{
+    const auto [lower, upper] = a.spaceBounds();
+    const Vec3 middle = 0.5*(lower + upper);
+    return std::max(a.distance(middle), b.distance(middle));
+}
+
 /// Depth by which the body passes a plane or a side of the box (negative: free).
 double depthBehind(const ShapeAtPose& body, const Vec3& point, const Vec3& normal)
 {
@@ -114,7 +122,9 @@ double ShapeAtPose::distance(const Vec3& x) const
 double gap(const ShapeAtPose& a, const ShapeAtPose& b, double farther)
 {
     if (boxesApart(a.spaceBounds(), b.spaceBounds(), farther)) return farther;
-    return std::min(oneSidedGap(a, b, farther), oneSidedGap(b, a, farther));
+    const double ofSurfaces = std::min(oneSidedGap(a, b, farther), oneSidedGap(b, a, farther));
+    const double ofMiddles = std::min(gapOfMiddle(a, b), gapOfMiddle(b, a));
+    return ofMiddles < 0 ? std::min(ofSurfaces, ofMiddles) : ofSurfaces;
 }
 
 std::optional<Conflict> findConflict(const ShapeAtPose& body, const Obstacles& obstacles, double minGap)

@@ -117,7 +117,7 @@ void FlowEquation::coupleLayers(int s)
     for (const CoveredFacet& facet : step_.cover->coveredFacets)
     {
         if (facet.other < 0 || (facet.solid != s && facet.other != s)) continue;
-        if (step_.cover->solidVolume[facet.other] == 0 && step_.cover->solidArea[facet.other] == 0) continue; // beside the mesh, as a body that has left it
+        if (step_.cover->solidVolume[facet.other] == 0 && step_.cover->solidArea[facet.other] == 0) continue; // beside the mesh
         const int* nodes = &mesh_.elements[std::size_t(facet.element)*N];
         if (std::any_of(nodes, nodes + N, [&](int i) { return !system_.isActive[i]; })) continue;
         const double weight = (facet.solid == s ? 1 : -1)*(solids[facet.other].kind == Solid::Kind::Fixed ? 1 : 0.5);

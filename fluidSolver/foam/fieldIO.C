@@ -69,10 +69,29 @@ private:
     const Halo& halo_;
 };
 
+/// Other solvers overshoot by less than this.
+constexpr double largestOvershoot = 0.01;
+
+void checkFractions(const Foam::volScalarField& alpha, const Halo& halo)
+{
+    double low = 0, high = 1;
+    for (const double a : alpha.primitiveField())
+    {
+        low = std::min(low, a);
+        high = std::max(high, a);
+    }
+    low = halo.min(low);
+    high = halo.max(high);
+    if (low >= -largestOvershoot && high <= 1 + largestOvershoot) return;
+    FatalErrorInFunction << "Field " << alpha.name() << " of time " << alpha.time().timeName() << " has cells from " << low << " to " << high
+        << ": it is the liquid's share of their volume, from 0 to 1." << Foam::exit(Foam::FatalError);
+}
+
 /// The surface between the cells' values, and the volume of their liquid.
 void readSurface(const MeshAdapter& adapter, const Halo& halo, const Foam::scalarField& alpha, FlowState& state)
 {
     std::vector<double> fraction(alpha.begin(), alpha.end());
+    for (double& f : fraction) f = std::clamp(f, 0.0, 1.0);
     state.startLiquid = 0;
     for (std::size_t c = 0; c < fraction.size(); ++c)
         for (int k = adapter.cellStart[c]; k < adapter.cellStart[c + 1]; ++k)
@@ -134,6 +153,7 @@ FoamFields::FoamFields(const Foam::fvMesh& mesh, const MeshAdapter& adapter, con
     pointP_ = newField<Foam::pointScalarField>(mesh, points, "pointP", dims);
     if (!controls.fluid.isTwoPhase) return;
     alpha_ = std::make_unique<Foam::volScalarField>(inputField(mesh, controls.alphaName), mesh);
+    checkFractions(*alpha_, halo);
     pointAlpha_ = newField<Foam::pointScalarField>(mesh, points, "pointAlpha", Foam::dimless);
 }
 
@@ -150,7 +170,7 @@ void FoamFields::readStart(FlowState& state) const
     }
     if (alpha_)
     {
-        state.alpha = toNodes([&](int c) { return (*alpha_)[c]; });
+        state.alpha = toNodes([&](int c) { return std::clamp((*alpha_)[c], 0.0, 1.0); });
         readSurface(adapter_, halo_, *alpha_, state);
     }
     else state.alpha.assign(mesh.nNodes, 1.0);

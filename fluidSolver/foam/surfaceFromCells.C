@@ -2,6 +2,9 @@
 #include "foam/surfaceFromCells.H"
 
 #include "geometry/cutSimplex.hpp"
+#include "geometry/shape.hpp"
+
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <array>
@@ -18,6 +21,7 @@ constexpr int maxSweeps = 200;          // a plane is found to round-off in 20 t
 constexpr double smallestChange = 1e-13;  // of the level, per sweep, over the common length
 constexpr int patience = 10;            // sweeps in which the change must halve: a surface that is no plane settles at a finite one
 constexpr double faceWeight = 1e-9;     // of full and empty cells whose face is the surface, beside partly filled ones
+constexpr int nMoments = 13;            // of a least-squares fit in 3D
 constexpr double flattest = 0.05;       // change of alpha over a cell below which there is no surface (a mixture)
 
 /// Partly filled, or full or empty where the surface lies between cells.
@@ -37,17 +41,24 @@ public:
     {
         for (std::size_t c = 0; c < fraction.size(); ++c)
             if (isPartlyFilled(fraction[c])) add(c, fraction[c]);
-        if (halo.any(!cells_.empty())) addCellsAtFaces(fraction);
+        if (halo.any(!cells_.empty()))
+        {
+            const std::vector<double> touches = touchingCells(fraction);
+            findProfiles(touches);
+            addCellsAtFaces(fraction, touches);
+        }
         for (const SurfaceCell& p : cells_) length_ = std::max(length_, 4*diagonal(p)); // keeps the level within 1/2
         length_ = halo.max(length_);
     }
 
     void run(std::vector<double>& alpha)
     {
-        if (!halo_.any(!cells_.empty())) return;
-        dropMixtures(alpha);
+        if (!halo_.any(!cells_.empty() || !profile_.empty())) return;
+        dropMixtures(alpha, cells_);
+        dropMixtures(alpha, profile_);
         std::vector<double> level(alpha.size());
         for (std::size_t i = 0; i < level.size(); ++i) level[i] = alpha[i] - 0.5;
+        followProfiles(level);
         double change = 1e300, before = 1e300;
         for (int sweep = 1; sweep <= maxSweeps && change > smallestChange; ++sweep)
         {
@@ -63,11 +74,11 @@ public:
 private:
     static bool isPartlyFilled(double fraction) { return fraction > sharp && fraction < 1 - sharp; }
 
-    /// A surface that lies on faces leaves full and empty cells in places, beside cells with traces of either: their common nodes are on it. Without planes of
-    /// their own these nodes would keep their level in another unit, and the surface next to the traces would be tilted.
-    void addCellsAtFaces(const std::vector<double>& fraction)
+    enum { Partly, Full, Empty, nKinds };
+
+    /// Number of partly filled, full and empty cells at each node.
+    std::vector<double> touchingCells(const std::vector<double>& fraction) const
     {
-        enum { Partly, Full, Empty, nKinds };
         std::vector<double> touches(nKinds*std::size_t(mesh_.nNodes), 0.0);
         std::vector<int> nodes;
         for (std::size_t c = 0; c < fraction.size(); ++c)
@@ -78,6 +89,52 @@ private:
         }
         halo_.sumToOwners(touches, nKinds);
         halo_.update(touches, nKinds);
+        return touches;
+    }
+
+    /// A profile over several cells (setExprFields with a smooth function, a field of interFoam) is no surface within each of them. Cells that a surface
+    /// cuts have full and empty cells beside them, those within a profile neither; what is joined to these through cells without full, or without
+    /// empty ones beside them belongs to the profile.
+    void findProfiles(const std::vector<double>& touches)
+    {
+        const auto hasBeside = [&](const SurfaceCell& p, int kind)
+        {
+            return std::any_of(p.nodes.begin(), p.nodes.end(), [&](int i) { return touches[nKinds*std::size_t(i) + kind] > 0; });
+        };
+        enum { Kept, Profile, MayBeProfile };
+        std::vector<int> kinds;
+        for (const SurfaceCell& p : cells_)
+        {
+            const bool hasFull = hasBeside(p, Full), hasEmpty = hasBeside(p, Empty);
+            kinds.push_back(hasFull && hasEmpty ? Kept : hasFull || hasEmpty ? MayBeProfile : Profile);
+        }
+        std::vector<double> isInProfile(mesh_.nNodes, 0.0);
+        for (bool hasGrown = true; halo_.any(hasGrown);)
+        {
+            for (std::size_t k = 0; k < cells_.size(); ++k)
+                if (kinds[k] == Profile)
+                    for (int i : cells_[k].nodes) isInProfile[i] = 1;
+            halo_.sumToOwners(isInProfile, 1);
+            halo_.update(isInProfile, 1);
+            hasGrown = false;
+            for (std::size_t k = 0; k < cells_.size(); ++k)
+            {
+                const std::vector<int>& nodes = cells_[k].nodes;
+                if (kinds[k] != MayBeProfile || std::none_of(nodes.begin(), nodes.end(), [&](int i) { return isInProfile[i] > 0; })) continue;
+                kinds[k] = Profile;
+                hasGrown = true;
+            }
+        }
+        std::vector<SurfaceCell> cut;
+        for (std::size_t k = 0; k < cells_.size(); ++k) (kinds[k] == Profile ? profile_ : cut).push_back(std::move(cells_[k]));
+        cells_.swap(cut);
+    }
+
+    /// A surface that lies on faces leaves full and empty cells in places, beside cells with traces of either: their common nodes are on it. Without planes of
+    /// their own these nodes would keep their level in another unit, and the surface next to the traces would be tilted.
+    void addCellsAtFaces(const std::vector<double>& fraction, const std::vector<double>& touches)
+    {
+        std::vector<int> nodes;
         const auto isOnFaces = [&](int i)
         {
             const double* t = &touches[nKinds*std::size_t(i)];
@@ -129,14 +186,108 @@ private:
         return g;
     }
 
-    void dropMixtures(const std::vector<double>& alpha)
+    void dropMixtures(const std::vector<double>& alpha, std::vector<SurfaceCell>& cells) const
     {
         const auto isMixture = [&](const SurfaceCell& p)
         {
             const auto g = gradient(p, alpha);
             return std::hypot(g[0], g[1], g[2])*p.size < flattest;
         };
-        cells_.erase(std::remove_if(cells_.begin(), cells_.end(), isMixture), cells_.end());
+        cells.erase(std::remove_if(cells.begin(), cells.end(), isMixture), cells.end());
+    }
+
+    Vec3 centroid(const SurfaceCell& p) const
+    {
+        const int n = mesh_.dim + 1;
+        Vec3 x = Vec3::Zero();
+        for (int k = adapter_.cellStart[p.cell]; k < adapter_.cellStart[p.cell + 1]; ++k)
+        {
+            const std::size_t e = adapter_.cellElements[k];
+            for (int a = 0; a < n; ++a) x += mesh_.volume[e]/(n*p.volume)*point(mesh_.elements[e*n + a]);
+        }
+        return x;
+    }
+
+    /// Level of the nodes of profiles: of a tanh profile atanh(2 alpha - 1) is linear, so means of the cells' values, carried to the node by their gradients, are
+    /// exact on any mesh. (Means of alpha itself leave a level surface uneven beside cells of other sizes.)
+    void followProfiles(std::vector<double>& level) const
+    {
+        if (!halo_.any(!profile_.empty())) return;
+        const double unit = 8*std::atanh(1 - 2*sharp); // keeps the level within 1/2, beyond the profile's last cells as well
+        std::vector<double> value;
+        std::vector<Vec3> centre;
+        for (const SurfaceCell& p : profile_)
+        {
+            value.push_back(std::atanh(2*p.fraction - 1)/unit);
+            centre.push_back(centroid(p));
+        }
+        const std::vector<Vec3> slope = leastSquaresGradients(value, centre);
+        const std::vector<double> nodal = toNodes(profile_, 1, [&](std::size_t k, int i, double* result)
+        {
+            *result = value[k] + slope[k].dot(point(i) - centre[k]);
+        });
+        for (std::size_t i = 0; i < level.size(); ++i)
+            if (nodal[2*i + 1] > 0) level[i] = std::clamp(nodal[2*i], -0.5, 0.5);
+    }
+
+    /// Of values of the profiles' cells, from those around each of its nodes: exact of linear values.
+    std::vector<Vec3> leastSquaresGradients(const std::vector<double>& value, const std::vector<Vec3>& centre) const
+    {
+        // moments about the node: r, value, r r, r value
+        const std::vector<double> moments = toNodes(profile_, nMoments, [&](std::size_t k, int i, double* m)
+        {
+            const Vec3 r = centre[k] - point(i);
+            *m++ = value[k];
+            for (int a = 0; a < 3; ++a)
+            {
+                *m++ = r[a];
+                *m++ = r[a]*value[k];
+                for (int b = a; b < 3; ++b) *m++ = r[a]*r[b];
+            }
+        });
+        std::vector<Vec3> result;
+        for (std::size_t k = 0; k < profile_.size(); ++k)
+        {
+            double weight = 0, mean = 0;
+            Vec3 first = Vec3::Zero(), mixed = Vec3::Zero();
+            Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+            for (int i : profile_[k].nodes)
+            {
+                const double* m = &moments[(nMoments + 1)*std::size_t(i)];
+                const double w = m[nMoments];
+                const Vec3 shift = point(i) - centre[k];
+                const double nodeMean = *m++;
+                Vec3 r, rValue;
+                Eigen::Matrix3d rr;
+                for (int a = 0; a < 3; ++a)
+                {
+                    r[a] = *m++;
+                    rValue[a] = *m++;
+                    for (int b = a; b < 3; ++b) rr(a, b) = rr(b, a) = *m++;
+                }
+                weight += w;
+                mean += w*nodeMean;
+                first += w*(r + shift);
+                mixed += w*(rValue + nodeMean*shift);
+                second += w*(rr + r*shift.transpose() + shift*r.transpose() + shift*shift.transpose());
+            }
+            mean /= weight;
+            first /= weight;
+            const Eigen::Matrix3d spread = second/weight - first*first.transpose();
+            // of least length where the cells lie in a plane or in a row
+            Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix3d> solve;
+            solve.setThreshold(1e-6);
+            solve.compute(spread);
+            result.push_back(solve.solve(mixed/weight - mean*first));
+        }
+        return result;
+    }
+
+    Vec3 point(int node) const
+    {
+        Vec3 x = Vec3::Zero();
+        for (int d = 0; d < mesh_.dim; ++d) x[d] = mesh_.x[std::size_t(node)*mesh_.dim + d];
+        return x;
     }
 
     double along(const std::array<double, 3>& normal, int node) const
@@ -197,17 +348,17 @@ private:
 
     /// Nodal means of a value of each surface cell, nComponents wide; nodes without surface cells get weight 0. Result: per node the means, the weight.
     template<class CellValue>
-    std::vector<double> toNodes(int nComponents, CellValue cellValue) const
+    std::vector<double> toNodes(const std::vector<SurfaceCell>& cells, int nComponents, CellValue cellValue) const
     {
         const std::size_t width = nComponents + 1;
         std::vector<double> sum(width*mesh_.nNodes, 0.0);
-        for (std::size_t k = 0; k < cells_.size(); ++k)
+        for (std::size_t k = 0; k < cells.size(); ++k)
         {
-            const SurfaceCell& p = cells_[k];
-            const double weight = p.volume*(p.fraction*(1 - p.fraction) + faceWeight); // slivers say little about the surface
+            const SurfaceCell& p = cells[k];
+            const double weight = p.volume*(&cells == &profile_ ? 1 : p.fraction*(1 - p.fraction) + faceWeight); // slivers say little about the surface
             for (int i : p.nodes)
             {
-                double value[3];
+                double value[nMoments];
                 cellValue(k, i, value);
                 for (int j = 0; j < nComponents; ++j) sum[width*i + j] += weight*value[j];
                 sum[width*i + nComponents] += weight;
@@ -227,7 +378,7 @@ private:
         std::vector<std::array<double, 3>> result(cells_.size());
         for (std::size_t k = 0; k < cells_.size(); ++k) result[k] = gradient(cells_[k], level);
         const std::size_t dim = mesh_.dim;
-        const std::vector<double> nodal = toNodes(dim, [&](std::size_t k, int, double* value) { std::copy_n(result[k].data(), dim, value); });
+        const std::vector<double> nodal = toNodes(cells_, dim, [&](std::size_t k, int, double* value) { std::copy_n(result[k].data(), dim, value); });
         for (std::size_t k = 0; k < cells_.size(); ++k)
         {
             std::array<double, 3> sum{};
@@ -246,7 +397,7 @@ private:
         const std::vector<std::array<double, 3>> normal = normals(level);
         std::vector<double> position(cells_.size());
         for (std::size_t k = 0; k < cells_.size(); ++k) position[k] = offset(cells_[k], normal[k]);
-        const std::vector<double> next = toNodes(1, [&](std::size_t k, int i, double* value) { *value = (along(normal[k], i) - position[k])/length_; });
+        const std::vector<double> next = toNodes(cells_, 1, [&](std::size_t k, int i, double* value) { *value = (along(normal[k], i) - position[k])/length_; });
         double change = 0;
         for (std::size_t i = 0; i < level.size(); ++i)
         {
@@ -262,7 +413,7 @@ private:
     {
         const std::size_t dim = mesh_.dim, n = dim + 1;
         const std::vector<std::array<double, 3>> normal = normals(level);
-        const std::vector<double> nodal = toNodes(dim, [&](std::size_t k, int, double* value) { std::copy_n(normal[k].data(), dim, value); });
+        const std::vector<double> nodal = toNodes(cells_, dim, [&](std::size_t k, int, double* value) { std::copy_n(normal[k].data(), dim, value); });
         const auto isKnown = [&](int i) { return nodal[n*i + dim] > 0; };
         std::vector<double> sum(2*level.size(), 0.0);
         for (int e = 0; e < mesh_.nElements; ++e)
@@ -293,7 +444,7 @@ private:
     const MeshAdapter& adapter_;
     const SimplexMesh& mesh_;
     const Halo& halo_;
-    std::vector<SurfaceCell> cells_;
+    std::vector<SurfaceCell> cells_, profile_;
     double length_ = 0;     // of the level's unit
 };
 

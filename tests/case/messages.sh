@@ -35,6 +35,7 @@ refused keyword 'setNumerics . "nitscheGama 10;"' \
 refused range 'setNumerics . "tolerance -1;"' \
     fvSolution tolerance -1
 refused missingField 'rm 0/p_rgh' p_rgh
+refused alphaRange 'sed "s/^internalField .*/internalField uniform 2;/" 0.orig/alpha.water > 0/alpha.water' alpha.water 'from 0 to 2' 'from 0 to 1'
 refused missingTime 'setEntry system/controlDict startFrom startTime; setEntry system/controlDict startTime 0.7' \
     'Time folder' 0.7 'there are: 0$' startTime
 refused unknownCondition 'sed -i "s/pressureInletOutletVelocity/waveVelocity/" 0/U' \
@@ -69,6 +70,10 @@ grep -q 'Start at time 0.002: the stored state continues, exactly' other/log.flo
 (cd other && flotsamFoam -dry-run) > /dev/null 2>&1 && fail "the dry run accepts a state of other bodies"
 (cd other && flotsamFoam) > other.log 2>&1 && fail "a state of other bodies is accepted"
 grep -q "differs was 'bar', is 'log'" other.log || fail "a state of other bodies: no word"
+rm -rf tiny && cp -r good tiny
+setEntry tiny/system/controlDict maxBodyCo 1e-12
+(cd tiny && flotsamFoam) > tiny.log 2>&1 && fail "a time step below minDeltaT is accepted"
+grep -q 'limits the time step to [0-9.]*e-[0-9]* s .* minDeltaT .* 1e-09 s' tiny.log || fail "a time step below minDeltaT: no numbers"
 rm -rf misnamed && cp -r good misnamed && mv misnamed/constant/bodies misnamed/constant/bodiesDict
 (cd misnamed && quietly flotsamFoam -dry-run && grep -q 'constant/bodiesDict is not read' log.flotsamFoam) || fail "a misnamed constant/bodies is not mentioned"
 

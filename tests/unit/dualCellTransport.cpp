@@ -131,3 +131,40 @@ TEST_CASE("a filling box: what enters arrives, the front moves with the fluid")
         CHECK(inflow - outflow == doctest::Approx(last).epsilon(1e-12));
     }
 }
+
+// The surface lies along the flow. With alpha(1 - alpha) = -w d alpha/dz the flux of eq 6 is gamma (delta - w) d alpha/dz, so the second moment of -d alpha/dz across
+// the surface changes at the rate 2 gamma (delta - w), beside what it does without mobility.
+TEST_CASE("mobility: a profile of another width goes towards the model's at the model's rate")
+{
+    constexpr double mobility = 0.5, duration = 0.02, widthOverLength = 2;
+    const auto rateOf = [](double mobility, double wider, double& delta)
+    {
+        TransportScene scene(MPI_COMM_WORLD, 2, 48, widthOverLength, [](const Point&) { return Point{1, 0, 0}; });
+        scene.controls.mobility = mobility;
+        const auto isInside = [&](int i) { return std::abs(scene.point(i)[0] - 0.6) < 0.2; };
+        const auto height = [&](int i) { return scene.point(i)[1] - 0.5; };
+        double sums[2] = {0, 0};
+        for (int i = 0; i < scene.mesh.nOwned; ++i)
+            if (isInside(i)) { sums[0] += scene.volume[i]*scene.transport.width()[i]; sums[1] += scene.volume[i]; }
+        scene.halo.sum(sums, 2);
+        delta = sums[0]/sums[1];
+        for (int i = 0; i < scene.mesh.nNodes; ++i) scene.alpha[i] = 1/(1 + std::exp(height(i)/(wider*delta)));
+        const auto moment = [&]
+        {
+            double sum = 0;
+            for (int i = 0; i < scene.mesh.nOwned; ++i)
+                if (isInside(i)) sum += 2*scene.volume[i]*height(i)*scene.alpha[i];
+            return scene.halo.sum(sum)/sums[1]; // of a box of height 1
+        };
+        const double before = moment();
+        for (int k = 0; k < 4; ++k) scene.advance(duration/4, 1);
+        return (moment() - before)/duration;
+    };
+    for (const double wider : {0.7, 1.5})
+    {
+        double delta;
+        const double rate = rateOf(mobility, wider, delta) - rateOf(0, wider, delta), expected = 2*mobility*delta*(1 - wider);
+        MESSAGE("width ", wider, " delta: rate of the second moment ", rate, ", of the model ", expected);
+        CHECK(std::abs(rate - expected) < 0.2*std::abs(expected));
+    }
+}

@@ -239,6 +239,8 @@ TEST_CASE("gaps of placed shapes")
     const Pose through{Vec3(0, 0, 0.08), crossed.orientation};
     CHECK(gap({"", box, {}}, {"", box, through}, 1) == doctest::Approx(-0.02));
     CHECK(gap({"", box, {}}, {"", box, {Vec3(9, 0, 0), {1, 0, 0, 0}}}, 0.5) == 0.5);
+    CHECK(gap({"", box, {}}, {"", box, {}}, 0) == doctest::Approx(-0.05)); // in the same place: no point of a surface is inside the other
+    CHECK(gap({"", box, {}}, {"", box, {Vec3(0, 0, 0.1), {1, 0, 0, 0}}}, 0) == doctest::Approx(0));
 }
 
 TEST_CASE("structures that overlap, touch, or lie in others")
@@ -320,6 +322,7 @@ TEST_CASE("one message for every mistake")
     CHECK(has(s.message("structures { post { shape { type box; size (0.1 0.1 0.1); } wall noslip; } }"), "Did you mean: noSlip"));
     CHECK(has(s.message("structures { gate { shape { type box; size (0.1 0.1 0.1); } position (1.5 0.5 0.2); motion { type linear; velocity (1 0 0); } } }" + bodies(bar + at)), "contact off"));
     CHECK(has(s.message(bodies(bar + "random { count 50; box ((0 0 0) (0.3 0.05 0.05)); tries 20; }")), "of 50 bodies 'bar' found a place within 20 tries"));
+    CHECK(has(s.message(bodies(bar + "array { count (100000 100000 1); spacing (1 1 1); }")), "makes 1e+10 members: at most 1e+06"));
     CHECK(has(s.message(bodies("shape { type cylinder; end1 (1 1 1); end2 (1 1 1); radius 1; } density 1;")), "no length"));
     CHECK(s.message(bodies(bar + "position (0.5 0.01 0.2);")).empty()); // lies on the floor
 }
@@ -331,6 +334,8 @@ TEST_CASE("an open STL is refused with its file")
     if (s.halo.rank() == 0) std::ofstream(s.foam.folder() + "/constant/triSurface/open.stl")
         << "solid open\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid open\n";
     MPI_Barrier(MPI_COMM_WORLD);
-    CHECK(has(s.message(bodies("shape { type stl; file \"open.stl\"; } density 500;")), "open.stl"));
+    const std::string message = s.message(bodies("shape { type stl; file \"open.stl\"; } density 500;"));
+    CHECK(has(message, "open.stl"));
+    CHECK(has(message, "the surface is open")); // so it was found and read, on every rank
     CHECK(has(s.message(bodies("shape { type stl; file \"absent.stl\"; } density 500;")), "absent.stl"));
 }

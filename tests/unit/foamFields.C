@@ -252,3 +252,38 @@ TEST_CASE("a plane comes back from the cells' fractions as that plane, also wher
             }
         }
 }
+
+TEST_CASE("a smooth profile over several cells comes back as the plane it was made of")
+{
+    Scene s;
+    const SimplexMesh& mesh = s.adapter.mesh;
+    const std::size_t n = mesh.dim + 1;
+    const Foam::vectorField& centres = s.foam.mesh().cellCentres();
+    constexpr double h = 0.1; // of the channel's cells
+    for (const double slope : {0.0, 0.1, -0.37})
+        for (const double thickness : {0.35*h, 0.7*h, 2*h})
+        {
+            const auto depth = [&](double x, double y) { return (0.513 + slope*(x - 1) - y)/std::hypot(1, slope); };
+            std::vector<double> fraction, alpha(mesh.nNodes);
+            for (const Foam::vector& x : centres) fraction.push_back(0.5*(1 + std::tanh(depth(x.x(), x.y())/thickness)));
+            for (int i = 0; i < mesh.nNodes; ++i) alpha[i] = 0.5*(1 + std::tanh(depth(mesh.x[2*i], mesh.x[2*i + 1])/thickness));
+            reconstructSurface(s.adapter, s.halo, fraction, alpha);
+            double worst = 0;
+            for (int e = 0; e < mesh.nElements; ++e)
+            {
+                // where the P1 level is zero on the edges of the elements that the plane cuts
+                const int* nodes = &mesh.elements[e*n];
+                for (std::size_t a = 0; mesh.isOwnedElement[e] && a < n; ++a)
+                {
+                    const int i = nodes[a], j = nodes[(a + 1) % n];
+                    const double di = depth(mesh.x[2*i], mesh.x[2*i + 1]), dj = depth(mesh.x[2*j], mesh.x[2*j + 1]);
+                    if (di*dj >= 0) continue;
+                    const double at = (alpha[i] - 0.5)/(alpha[i] - alpha[j]);
+                    worst = std::max(worst, std::abs(di + at*(dj - di)));
+                }
+            }
+            CAPTURE(slope);
+            CAPTURE(thickness);
+            CHECK(s.halo.max(worst) < 1e-3*h);
+        }
+}

@@ -109,6 +109,40 @@ TEST_CASE("the stop carries the drag of the fixed bar")
     CHECK(std::abs(held.records()[0].motion.velocity[0]) < 1e-4);
 }
 
+TEST_CASE("moments of a structure are about its origin, that of contact is the body's on it")
+{
+    const Vec3 position(0.7, 0.5, 0.5), centre(0.87, 0.46, 0.5), offset(0.13, -0.21, 0);
+    const BodyDefinition bar = makeBar(590, position);
+    const DemSetup dem = makeDem(bar, position[0] + side/2 + 1e-9);
+    std::vector<BodyRecord> structure, body;
+    for (const Vec3& origin : {centre, Vec3(centre + offset)})
+    {
+        Channel channel;
+        Solid post;
+        post.shape = makeBox(centre - origin, Vec3(0.14, 0.1, 1));
+        post.pose.position = origin;
+        CoupledStep run(channel.mesh, channel.halo, channel.fluid, channel.controls, channel.patches,
+            Scene({{post, 0, {}}}, {bar}, Vec3::Zero()), &dem, channel.timers);
+        run.start(channel.rest(), true);
+        for (int k = 0; k < 20; ++k) REQUIRE(run.step(0.02).isAccepted);
+        structure.push_back(run.records()[0]);
+        body.push_back(run.records()[1]);
+    }
+    for (int k = 0; k < 2; ++k)
+    {
+        const Vec3 arm = body[k].pose.position - structure[k].pose.position;
+        const Vec3 ofBody = body[k].contactMoment + arm.cross(body[k].contactForce);
+        CHECK(structure[k].contactForce[0] > 1);
+        CHECK((structure[k].contactForce + body[k].contactForce).norm() < 1e-6*structure[k].contactForce.norm());
+        CHECK((structure[k].contactMoment + ofBody).norm() < 1e-3*ofBody.norm());
+    }
+    // the same scene described from another origin
+    const double scale = offset.norm()*structure[0].fluidForce.norm();
+    CHECK(scale > 1);
+    CHECK((structure[0].fluidMoment - structure[1].fluidMoment - offset.cross(structure[1].fluidForce)).norm() < 1e-3*scale);
+    CHECK((structure[0].contactMoment - structure[1].contactMoment - offset.cross(structure[1].contactForce)).norm() < 1e-3*scale);
+}
+
 TEST_CASE("without contact one solve a step, and the DEM ends at the solved velocity")
 {
     Channel channel;
