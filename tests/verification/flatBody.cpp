@@ -105,6 +105,8 @@ DemSetup makeDem(const Tank& tank, const std::vector<BodyDefinition>& bodies, do
     return dem;
 }
 
+DemSetup makeDem(const Tank& tank, const BodyDefinition& body, double height = 0) { return makeDem(tank, std::vector<BodyDefinition>(1, body), height); }
+
 std::unique_ptr<CoupledStep> makeRun(Tank& tank, const DemSetup& dem, std::vector<SceneStructure> structures = {})
 {
     auto run = std::make_unique<CoupledStep>(tank.mesh, tank.halo, tank.fluid, tank.controls, tank.patches,
@@ -124,7 +126,7 @@ TEST_CASE("a box heavier than water stays on the bed with its weight less its bu
             Tank tank(s.dim, s.h, s.dim == 2 ? 0.3 : 0.375, isRough);
             const double middle = s.dim == 2 ? 0.5 : 0.25;
             const BodyDefinition body = makeBody(s.dim, s.box, 1500, Vec3(middle + 0.003, 0.5*s.box[1], s.dim == 2 ? 0.5 : 0.25));
-            const DemSetup dem = makeDem(tank, {body});
+            const DemSetup dem = makeDem(tank, body);
             const auto run = makeRun(tank, dem);
             for (int k = 0; k < 100; ++k) REQUIRE(run->step(0.005).isAccepted);
             const BodyRecord record = run->records()[0];
@@ -145,7 +147,7 @@ TEST_CASE("a round body on the bed has its whole buoyancy")
 {
     Tank tank(2, 0.02, 0.3);
     const BodyDefinition body = makeRound(0.05, 1500, Vec3(0.503, 0.05, 0.5));
-    const DemSetup dem = makeDem(tank, {body});
+    const DemSetup dem = makeDem(tank, body);
     const auto run = makeRun(tank, dem);
     for (int k = 0; k < 100; ++k) REQUIRE(run->step(0.005).isAccepted);
     const double force = run->records()[0].fluidForce[1], buoyancy = rhoWater*g*body.volume;
@@ -163,7 +165,7 @@ TEST_CASE("a box lighter than water lifts off, slower than without water to move
             Tank tank(dim, h, dim == 2 ? 0.5 : 0.625);
             tank.controls.contactTolerance = NumericsControls().contactTolerance;
             const BodyDefinition body = makeBody(dim, size, density, Vec3(dim == 2 ? 0.5 : 0.25, 0.5*size[1], dim == 2 ? 0.5 : 0.25));
-            const DemSetup dem = makeDem(tank, {body});
+            const DemSetup dem = makeDem(tank, body);
             const auto run = makeRun(tank, dem);
             const double net = (rhoWater - density)*body.volume*g; // force if nothing moved
             double fastest = 0, largestJump = 0, before = 0, rise = 0;
@@ -192,8 +194,8 @@ TEST_CASE("in air a box stays on the bed with its weight")
     Tank tank(2, 0.02, 0.3);
     tank.fluid.isTwoPhase = true;
     const BodyDefinition body = makeBody(2, Vec3(0.2, 0.1, 1), 600, Vec3(0.5, 0.05, 0.5));
-    const DemSetup dem = makeDem(tank, {body});
-    CoupledStep run(tank.mesh, tank.halo, tank.fluid, tank.controls, tank.patches, Scene({}, {body}, Vec3(0, -g, 0)), &dem, tank.timers);
+    const DemSetup dem = makeDem(tank, body);
+    CoupledStep run(tank.mesh, tank.halo, tank.fluid, tank.controls, tank.patches, Scene({}, dem.bodies, Vec3(0, -g, 0)), &dem, tank.timers);
     FlowState start = restState(tank.mesh);
     start.alpha.assign(tank.mesh.nNodes, 0.0);
     run.start(std::move(start), true);
@@ -231,7 +233,7 @@ TEST_CASE("a box on a structure has its buoyancy, though no element is between")
         const double top = 2*sill.solid.pose.position[1];
         const Vec3 size = dim == 2 ? Vec3(0.2, 0.1, 1) : Vec3(0.25, 0.125, 0.2);
         const BodyDefinition body = makeBody(dim, size, 1500, Vec3(middle + 0.003, top + 0.5*size[1], dim == 2 ? 0.5 : 0.25));
-        const DemSetup dem = makeDem(tank, {body}, top);
+        const DemSetup dem = makeDem(tank, body, top);
         const auto run = makeRun(tank, dem, {sill});
         for (int k = 0; k < 160; ++k) REQUIRE(run->step(0.005).isAccepted);
         const BodyRecord record = run->records().back();
