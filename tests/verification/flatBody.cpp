@@ -274,7 +274,8 @@ TEST_CASE("a box lighter than water floats up from a structure and from another 
         Tank tank(2, 0.02, 0.5);
         tank.controls.contactTolerance = NumericsControls().contactTolerance;
         const Vec3 size(0.2, 0.1, 1);
-        std::vector<BodyDefinition> bodies(1, makeBody(2, size, 600, Vec3(0.5, 0.15, 0.5)));
+        std::vector<BodyDefinition> bodies;
+        bodies.push_back(makeBody(2, size, 600, Vec3(0.5, 0.15, 0.5)));
         if (isOnBox) bodies.push_back(makeBody(2, size, 2500, Vec3(0.5, 0.05, 0.5)));
         const DemSetup dem = makeDem(tank, bodies, isOnBox ? 0 : 0.1);
         const auto run = makeRun(tank, dem, isOnBox ? std::vector<SceneStructure>{} : std::vector<SceneStructure>{makeSill(2)});
