@@ -9,6 +9,7 @@
 /// have had 1e5 Pa and 110 m/s.
 /// Gaps between solids of less than a fiftieth of an element are pockets, too, open at their ends or not: what solids that move against each other press out of them is as fast as the gap is
 /// thin, and what would hold it back, friction, is not resolved.
+/// Among the surfaces that solids cover of each other the pockets' pressures are unknowns of the layer there (flowLayers.cpp).
 #pragma once
 
 #include "equations/basins.hpp"
