@@ -9,7 +9,6 @@ import numpy as np
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-STYLE = {"with logs": "-", "without logs": "--"}
 WOOD = (0.52, 0.33, 0.16)
 
 
@@ -50,16 +49,8 @@ def series(runs, file):
     figure, axes = plt.subplots(2, 2, figsize=(12, 7.5), sharex=True)
     logged = runs["with logs"]
     h = logged["history"]
-    for name, run in runs.items():
-        style = STYLE[name]
-        axes[0, 0].plot(run["time"], 100 * run["depth"][:, 0], "C0" + style, label=f"upstream, {name}")
-        axes[0, 0].plot(run["time"], 100 * run["depth"][:, 1], "C1" + style, label=f"downstream, {name}")
-        time, inflow, outflow = driftwood.discharge(run["history"])
-        axes[0, 1].plot(time, 1000 * outflow, "C1" + style, label=f"out, {name}")
-        axes[1, 1].plot(*driftwood.smooth(run["history"].time, run["water"]), "C0" + style, label=f"water, {name}")
-    axes[0, 1].plot(time, 1000 * inflow, "k:", label="in")
-    axes[0, 0].set(ylabel="water depth [cm]", title="mean over {:g} to {:g} m, and over {:g} to {:g} m".format(*channel.UPSTREAM, *channel.DOWNSTREAM))
-    axes[0, 1].set(ylabel="discharge [l/s]", title="discharge", ylim=(0, None))
+    driftwood.drawFlow(axes[0, 0], axes[0, 1], axes[1, 1], runs)
+    axes[0, 0].set_title("mean over {:g} to {:g} m, and over {:g} to {:g} m".format(*channel.UPSTREAM, *channel.DOWNSTREAM))
     axes[1, 0].plot(h.time, channel.isHeld(h).sum(0), label="held")
     axes[1, 0].plot(h.time, channel.passedLogs(h), "--", label="downstream of the pier")
     axes[1, 0].set(ylabel="logs", xlabel="time [s]", ylim=(0, len(h.bodies)), title=f"logs, of {len(h.bodies)}")

@@ -100,3 +100,17 @@ def smooth(time, values, span=0.1):
     number = np.digitize(time, edges)
     used = np.unique(number)
     return np.array([time[number == k].mean() for k in used]), np.array([values[..., number == k].mean(-1) for k in used]).T
+
+
+def drawFlow(depths, discharges, forces, runs):
+    """Into three axes, over time: depths upstream and downstream [cm], discharge [l/s], force of the water on the structure [N] of both runs, the one with
+    driftwood first and solid. runs: {name: {"history", "time", "depth" (n x 2), "water"}}."""
+    for (name, run), style in zip(runs.items(), ("-", "--")):
+        depths.plot(run["time"], 100 * run["depth"][:, 0], "C0" + style, label=f"upstream, {name}")
+        depths.plot(run["time"], 100 * run["depth"][:, 1], "C1" + style, label=f"downstream, {name}")
+        time, inflow, outflow = discharge(run["history"])
+        discharges.plot(time, 1000 * outflow, "C1" + style, label=f"out, {name}")
+        forces.plot(*smooth(run["history"].time, np.atleast_2d(run["water"]).sum(0)), "C0" + style, label=f"water, {name}")
+    discharges.plot(time, 1000 * inflow, "k:", label="in")
+    depths.set(ylabel="water depth [cm]")
+    discharges.set(ylabel="discharge [l/s]", title="discharge", ylim=(0, None))

@@ -47,16 +47,8 @@ def series(runs, file):
     figure, axes = plt.subplots(3, 2, figsize=(12, 10), sharex=True)
     barred = runs["with bars"]
     h = barred["history"]
-    for name, run in runs.items():
-        style = STYLE[name]
-        axes[0, 0].plot(run["time"], 100 * run["depth"][:, 0], "C0" + style, label=f"upstream, {name}")
-        axes[0, 0].plot(run["time"], 100 * run["depth"][:, 1], "C1" + style, label=f"downstream, {name}")
-        time, inflow, outflow = driftwood.discharge(run["history"])
-        axes[0, 1].plot(time, 1000 * outflow, "C1" + style, label=f"out, {name}")
-        axes[1, 1].plot(*driftwood.smooth(run["history"].time, run["water"].sum(0)), "C0" + style, label=f"water, {name}")
-    axes[0, 1].plot(time, 1000 * inflow, "k:", label="in")
-    axes[0, 0].set(ylabel="water depth [cm]", title=f"{-flume.UPSTREAM} m upstream and {flume.DOWNSTREAM} m downstream of the pipes")
-    axes[0, 1].set(ylabel="discharge [l/s]", title="discharge", ylim=(0, None))
+    driftwood.drawFlow(axes[0, 0], axes[0, 1], axes[1, 1], runs)
+    axes[0, 0].set_title(f"{-flume.UPSTREAM} m upstream and {flume.DOWNSTREAM} m downstream of the pipes")
     axes[1, 0].plot(h.time, 100 * flume.captureRatio(h))
     axes[1, 0].set(ylabel="share of the bars [%]", ylim=(0, 102), title=f"bars less than {flume.REACH} m upstream of the pipes")
     axes[1, 1].plot(*driftwood.smooth(h.time, barred["contact"].sum(0)), "C3", label="bars")
