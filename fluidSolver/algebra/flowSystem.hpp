@@ -44,6 +44,7 @@ struct NodeConstraint
     double direction[3][3]; ///< orthonormal; nDirections == dim: the whole vector
 };
 
+/// All of the velocity of a node.
 inline NodeConstraint wholeVelocity(int node, int dim)
 {
     NodeConstraint c{};

@@ -80,7 +80,7 @@ private:
     void findLayerShares();
     template<int D> void assembleLayers();
     template<int D> void addLayerElement(int e, double share);
-    template<int D> void coupleLayers(int s);
+    template<int D> void coupleLayers(int s, const std::vector<int>& facets);
     template<int D> void addConductance(int a, int b, double conductance, double hydrostatic);
     template<int D> void assembleGhosts();
     void findFilms();

@@ -2,7 +2,7 @@
 /// Water between solids that lie on each other.
 ///
 /// No element lies between them, so no pressure of the flow acts on what they cover of each other (CoveredFacet), and the fluid around would press them together: a bar
-/// 2 cm thick under 10 cm of water with twenty times its weight. Driftwood is not that smooth: water gets between. So the nodes there, which are inside the solids, have a pressure,
+/// 2 cm thick under 10 cm of water with eight times its weight. Driftwood is not that smooth: water gets between. So the nodes there, which are inside the solids, have a pressure,
 /// which acts on both solids alike; the continuity rows say that the volume that they leave each other comes from the fluid at the rim, along an unresolved layer as under bodies on walls
 /// (flowFilms.cpp): in proportion to the gradient of pressure and weight. What the layer holds is not fluid to the transport: it moves when the gap reaches an element.
 #include "equations/flowEquation.hpp"
@@ -107,16 +107,17 @@ void FlowEquation::addLayerElement(int e, double share)
 }
 
 /// The pressure on what others cover of solid s and it of others, and the volume that it makes room for by moving. Of two solids that move both list what they cover of each other: half each.
+/// facets: the covered ones of s and those of others that it covers.
 template<int D>
-void FlowEquation::coupleLayers(int s)
+void FlowEquation::coupleLayers(int s, const std::vector<int>& facets)
 {
     constexpr int N = D + 1, B = D + 1, nDof = RigidArm<D>::nDof;
     const std::vector<Solid>& solids = *step_.solids;
     SolidCoupling& coupling = system_.solids[s];
     for (std::size_t k = 0; k < coupling.node.size(); ++k) placeInSolid_[coupling.node[k]] = int(k);
-    for (const CoveredFacet& facet : step_.cover->coveredFacets)
+    for (int k : facets)
     {
-        if (facet.other < 0 || (facet.solid != s && facet.other != s)) continue;
+        const CoveredFacet& facet = step_.cover->coveredFacets[k];
         if (step_.cover->solidVolume[facet.other] == 0 && step_.cover->solidArea[facet.other] == 0) continue; // beside the mesh
         const int* nodes = &mesh_.elements[std::size_t(facet.element)*N];
         if (std::any_of(nodes, nodes + N, [&](int i) { return !system_.isActive[i]; })) continue;
@@ -148,7 +149,15 @@ void FlowEquation::assembleLayers()
         system_.pressureMass[i] = 1e30;         // nothing viscous
     }
     for (const LayerElement& layer : layers_) addLayerElement<D>(layer.element, layer.share);
-    for (std::size_t s = 0; s < system_.solids.size(); ++s) coupleLayers<D>(int(s));
+    std::vector<std::vector<int>> facets(system_.solids.size()); // many solids: not all facets for each
+    for (std::size_t k = 0; k < step_.cover->coveredFacets.size(); ++k)
+    {
+        const CoveredFacet& facet = step_.cover->coveredFacets[k];
+        if (facet.other < 0) continue;
+        facets[facet.solid].push_back(int(k));
+        facets[facet.other].push_back(int(k));
+    }
+    for (std::size_t s = 0; s < system_.solids.size(); ++s) coupleLayers<D>(int(s), facets[s]);
 }
 
 template void FlowEquation::assembleLayers<2>();
