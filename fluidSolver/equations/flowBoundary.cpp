@@ -60,6 +60,7 @@ void FlowEquation::buildConstraints()
     halo_.update(flags, 1);
     system_.isPressureFixed.assign(flags.begin(), flags.end());
     isPatchPressureFixed_ = system_.isPressureFixed;
+    isPressureWeak_.assign(mesh_.nNodes, 0);
 }
 
 bool FlowEquation::isOfPocket(int e) const
@@ -94,11 +95,40 @@ void FlowEquation::applyPockets(std::vector<double>& x) const
     }
 }
 
+/// Nodes through whose faces liquid enters under a given pressure. What the skew-symmetric convection leaves out there makes that pressure the total one,
+/// p + rho (u.n) u/2 = p0: the unknown is the static pressure, lower by rho u^2/2. Held at p0 it would contradict the momentum by the dynamic pressure, which
+/// then goes into the first elements. It is left to the equations; p0 acts in the boundary term alone (addOpenFace). For gas that is too little to matter.
+void FlowEquation::findWeakPressures()
+{
+    const int dim = mesh_.dim;
+    const auto isGiven = [](const BoundaryPatch& p) { return p.velocity == BoundaryPatch::Velocity::Open && p.pressure != BoundaryPatch::Pressure::Natural; };
+    if (std::none_of(patches_.begin(), patches_.end(), isGiven)) return;
+    entering_.assign(mesh_.nNodes, 0.0);
+    for (const BoundaryPatch& patch : patches_)
+    {
+        if (!isGiven(patch)) continue;
+        const MeshPatch& faces = mesh_.patches[patch.meshPatch];
+        for (std::size_t f = 0; f < faces.faceElement.size(); ++f)
+        {
+            const int* nodes = &faces.faceNodes[f*dim];
+            double v[3], through = 0;
+            outwardVector(mesh_, faces, f, v);
+            for (int k = 0; k < dim; ++k)
+                for (int d = 0; d < dim; ++d) through += nodal_.advection[std::size_t(nodes[k])*dim + d]*v[d]/dim;
+            for (int k = 0; k < dim; ++k) entering_[nodes[k]] -= through/dim;
+        }
+    }
+    halo_.update(entering_, 1);      // second-ring copies do not see all of their faces
+    for (int i = 0; i < mesh_.nNodes; ++i)
+        isPressureWeak_[i] = entering_[i] > 0 && (!fluid_.isTwoPhase || step_.state->alpha[i] > 0.5);
+}
+
 /// By patches, at the edge of gas that is left out, in shut pockets.
 void FlowEquation::fixPressures()
 {
+    findWeakPressures();
     for (int i = 0; i < mesh_.nNodes; ++i)
-        system_.isPressureFixed[i] = isPatchPressureFixed_[i] || (step_.gas && step_.gas->isEdge()[i]) || (step_.pockets && step_.pockets->isNode(i));
+        system_.isPressureFixed[i] = (isPatchPressureFixed_[i] && !isPressureWeak_[i]) || (step_.gas && step_.gas->isEdge()[i]) || (step_.pockets && step_.pockets->isNode(i));
 }
 
 void FlowEquation::applyConstraints(const std::vector<PatchValues>& values, std::vector<double>& x) const
@@ -132,6 +162,7 @@ void FlowEquation::applyConstraints(const std::vector<PatchValues>& values, std:
         for (std::size_t k = 0; k < patches_[p].nodes.size(); ++k)
         {
             const int i = patches_[p].nodes[k];
+            if (isPressureWeak_[i]) continue;
             // Total: the dynamic part acts implicitly, through the boundary term that the skew-symmetric convection leaves
             // out (p + rho (u.n) u/2 = p0). Subtracted here from the last velocity it feeds back on itself within the
             // step and blows up at any time step (measured)

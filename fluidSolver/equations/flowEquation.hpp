@@ -94,6 +94,7 @@ private:
     template<int D> void assembleGasEdge();
     void fixGasEdge();
     void fixPressures();
+    void findWeakPressures();
     bool isOfPocket(int e) const;
     void holdPockets();
     void applyPockets(std::vector<double>& x) const;
@@ -138,6 +139,8 @@ private:
     std::vector<double> sweptOfCut_;            // that half at the corners of every cut element, negative where fluid appears
     std::vector<char> carriesMass_, isOpen_;    // nodes of varying elements; nodes on open patches
     std::vector<char> isPatchPressureFixed_;    // nNodes: by a patch
+    std::vector<char> isPressureWeak_;          // nNodes: of these, where liquid enters: see findWeakPressures()
+    std::vector<double> entering_;              // nNodes, work of findWeakPressures(): volume flux into the mesh [m^dim/s]
     double gasLevel_ = 0;                       // of the gas at rest's pressure [Pa]
     std::vector<char> isSlipEdge_;              // nNodes: on a re-entrant edge of slip patches, see SlipNormals
     std::size_t nPatchConstraints_ = 0;         // of the system's, the first ones; then those of shut pockets

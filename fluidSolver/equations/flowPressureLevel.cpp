@@ -92,7 +92,9 @@ void FlowEquation::findPressureLevels()
     system_.nLevels = 0;
     system_.level.clear();
     system_.levelWeight.clear();
-    std::vector<int> level = ownLevels(step_.basins->haveAny(system_.isPressureFixed));
+    std::vector<char> isGiven(system_.isPressureFixed);
+    for (int i = 0; i < mesh_.nNodes; ++i) isGiven[i] |= isPressureWeak_[i];
+    std::vector<int> level = ownLevels(step_.basins->haveAny(isGiven));
     if (std::count(level.begin(), level.end(), byBoundary) == long(level.size())) return;
     const std::vector<double> volume = levelVolumes(level);
     std::vector<char> hasGas(level.size());
