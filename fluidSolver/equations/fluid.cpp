@@ -179,7 +179,7 @@ void Fluid::findSurface(const Cover* cover)
 {
     if (!isLevelKnown_) level_ = surfaceLevel(mesh_, halo_, state_.alpha, transport_.width(), profileCells(), cover, levelTolerance());
     isLevelKnown_ = true;
-    planes_.propagate(mesh_, graph_, halo_, level_, controls_.gravityLayers, cover, true);
+    planes_.propagate(mesh_, graph_, halo_, level_, planesExtent(controls_, transport_.width()), cover, true);
 }
 
 /// Inside solids the phase field continues the free surface outside: the nearest plane's profile, so that a plane

@@ -13,11 +13,13 @@ namespace flotsam
 namespace
 {
 
+constexpr double leastAlpha = 1e-4;     // that the profile keeps
+constexpr double ofMeans = 2;           // widths by which means over dual cells reach farther out than the profile
 constexpr double sameDensity = 1e-10; // relative spread of nodal densities that counts as constant
 
-/// Distance of a node from its plane [m], of which only one element length h around the plane's own point counts as the surface.
+/// Distance of a node from its plane [m], of which only its reach around its own point counts as the surface.
 template<int dim>
-double distanceFromSurface(const SimplexMesh& mesh, const InterfacePlanes& planes, int i, double h)
+double distanceFromSurface(const SimplexMesh& mesh, const InterfacePlanes& planes, int i)
 {
     const double d = planes.distance(i);
     double square = 0;
@@ -26,13 +28,13 @@ double distanceFromSurface(const SimplexMesh& mesh, const InterfacePlanes& plane
         const double t = mesh.x[std::size_t(i)*dim + k] - d*planes.normal(i)[k] - planes.point(i)[k];
         square += t*t;
     }
-    return std::hypot(d, std::max(0.0, std::sqrt(square) - h));
+    return std::hypot(d, std::max(0.0, std::sqrt(square) - planes.reach(i)));
 }
 
-/// g.x of the foot of a point on the plane of node i. The node's own foot stays within one element length of the plane's own point, beyond
+/// g.x of the foot of a point on the plane of node i. The node's own foot stays within the plane's reach, beyond
 /// which an inclined plane says nothing about the surface's height.
 template<int dim>
-double footPotential(const SimplexMesh& mesh, const double* g, const InterfacePlanes& planes, int i, double h, const double* point)
+double footPotential(const SimplexMesh& mesh, const double* g, const InterfacePlanes& planes, int i, const double* point)
 {
     const double *c = planes.point(i), *n = planes.normal(i), *x = &mesh.x[std::size_t(i)*dim], d = planes.distance(i);
     double t[dim], length = 0, along = 0;
@@ -43,7 +45,7 @@ double footPotential(const SimplexMesh& mesh, const double* g, const InterfacePl
         along += n[k]*(point[k] - x[k]);
     }
     length = std::sqrt(length);
-    const double share = length > h ? h/length : 1;
+    const double share = length > planes.reach(i) ? planes.reach(i)/length : 1;
     double result = 0;
     for (int k = 0; k < dim; ++k) result += g[k]*(c[k] + share*t[k] + point[k] - x[k] - along*n[k]);
     return result;
@@ -79,7 +81,7 @@ double facingPotential(const SimplexMesh& mesh, const double* g, const Interface
         for (int k = 0; k < dim; ++k) slope += gradRho[k]*planes.normal(nodes[a])[k];
         if (slope <= 0) continue;
         facing += slope;
-        sum += slope*footPotential<dim>(mesh, g, planes, nodes[a], mesh.h[e], centre);
+        sum += slope*footPotential<dim>(mesh, g, planes, nodes[a], centre);
     }
     if (facing > 0) return sum/facing;
     for (int k = 0; k < dim; ++k) sum += g[k]*centre[k];
@@ -94,7 +96,7 @@ double elementPotential(const SimplexMesh& mesh, const double* g, const Interfac
     constexpr int n = dim + 1;
     const int* nodes = &mesh.elements[std::size_t(e)*n];
     double mean = 0;
-    for (int a = 0; a < n; ++a) mean += footPotential<dim>(mesh, g, planes, nodes[a], mesh.h[e], &mesh.x[std::size_t(nodes[a])*dim])/n;
+    for (int a = 0; a < n; ++a) mean += footPotential<dim>(mesh, g, planes, nodes[a], &mesh.x[std::size_t(nodes[a])*dim])/n;
     const double opposed = std::max(0.0, -leastCosine<dim>(planes, nodes));
     return opposed > 0 ? (1 - opposed)*mean + opposed*facingPotential<dim>(mesh, g, planes, e, gradRho) : mean;
 }
@@ -127,7 +129,7 @@ void surfaceDensityT(const SimplexMesh& mesh, const FluidProperties& fluid, cons
         if (planes.has(i))
         {
             const double h = width[i]/controls.interfaceWidth;
-            most = 1/(1 + std::exp((distanceFromSurface<dim>(mesh, planes, i, h) - h)/width[i]));
+            most = 1/(1 + std::exp((distanceFromSurface<dim>(mesh, planes, i) - h)/width[i]));
         }
         result[i] = density(fluid, controls, alpha[i] < 0.5 ? std::min(alpha[i], most) : std::max(alpha[i], 1 - most));
     }
@@ -176,6 +178,11 @@ void surfaceDensity(const SimplexMesh& mesh, const FluidProperties& fluid, const
 {
     if (mesh.dim == 2) surfaceDensityT<2>(mesh, fluid, controls, planes, width, alpha, result);
     else surfaceDensityT<3>(mesh, fluid, controls, planes, width, alpha, result);
+}
+
+InterfacePlanes::Extent planesExtent(const NumericsControls& controls, const std::vector<double>& width)
+{
+    return {controls.gravityLayers, &width, ofMeans - std::log(std::max(controls.densityClip, leastAlpha))};
 }
 
 void gravityForce(const SimplexMesh& mesh, const std::array<double, 3>& gravity, const std::vector<double>& rho,

@@ -20,6 +20,9 @@ namespace flotsam
 void surfaceDensity(const SimplexMesh& mesh, const FluidProperties& fluid, const NumericsControls& controls, const InterfacePlanes& planes,
     const std::vector<double>& width, const std::vector<double>& alpha, std::vector<double>& result);
 
+/// Planes for every node where alpha may weigh: over gravityLayers rings at least, in thin elements (rings are closer than the profile is wide) over more.
+InterfacePlanes::Extent planesExtent(const NumericsControls& controls, const std::vector<double>& width);
+
 /// result: nElements*dim [N/m^3]. rho, ofSurface (surfaceDensity()): nNodes. planes: null or empty: f = rho_e g everywhere.
 void gravityForce(const SimplexMesh& mesh, const std::array<double, 3>& gravity, const std::vector<double>& rho,
     const InterfacePlanes* planes, const std::vector<double>& ofSurface, const Cover* cover, std::vector<double>& result);

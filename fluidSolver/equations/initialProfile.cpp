@@ -14,8 +14,9 @@ namespace flotsam
 namespace
 {
 
-/// The profile has reached 0 or 1 to 1e-15 within this many rings of nodes for any sensible width.
+/// The profile has reached 0 or 1 to 1e-15 within this many rings of nodes or widths.
 constexpr int profileRings = 12;
+constexpr double profileWidths = 35;
 
 /// Signed distance [m]. The plane's sign is wrong behind corners of the surface: there the sharp field knows better.
 double profileDistance(const SimplexMesh& mesh, const InterfacePlanes& planes, int i, double sharp)
@@ -96,7 +97,7 @@ void makeStartProfile(const SimplexMesh& mesh, const NodeGraph& graph, const Hal
     for (double& l : level)
         l -= 0.5;
     InterfacePlanes planes;
-    planes.propagate(mesh, graph, halo, level, profileRings);
+    planes.propagate(mesh, graph, halo, level, {profileRings, &width, profileWidths});
     if (!halo.any(!planes.nodes().empty()))
         return;
 

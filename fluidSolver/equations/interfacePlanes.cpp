@@ -30,10 +30,23 @@ double squaredDistance(const double* a, const double* b)
 /// A choice between two equally near planes that depends neither on the order of the elements nor on the rank.
 bool comesFirst(const double* a, const double* b, int dim, double tolerance)
 {
-    for (int d = 0; d < 2*dim; ++d)     // point, then normal
-        if (std::abs(a[d] - b[d]) > (d < dim ? tolerance : tieTolerance))
+    for (int d = 0; d <= 2*dim; ++d)    // point, then normal, then reach
+        if (std::abs(a[d] - b[d]) > (d >= dim && d < 2*dim ? tieTolerance : tolerance))
             return a[d] < b[d];
     return false;
+}
+
+double longestEdge(const SimplexMesh& mesh, int e)
+{
+    const int nCorners = mesh.dim + 1, *nodes = &mesh.elements[static_cast<std::size_t>(e)*nCorners];
+    double longest = 0;
+    for (int a = 1; a < nCorners; ++a)
+        for (int b = 0; b < a; ++b)
+        {
+            const double *p = &mesh.x[static_cast<std::size_t>(nodes[a])*mesh.dim], *q = &mesh.x[static_cast<std::size_t>(nodes[b])*mesh.dim];
+            longest = std::max(longest, mesh.dim == 2 ? squaredDistance<2>(p, q) : squaredDistance<3>(p, q));
+        }
+    return std::sqrt(longest);
 }
 
 bool isCut(const int* nodes, int nCorners, const std::vector<double>& level)
@@ -49,7 +62,7 @@ bool isCut(const int* nodes, int nCorners, const std::vector<double>& level)
 void InterfacePlanes::clear(const SimplexMesh& mesh)
 {
     dim_ = mesh.dim;
-    width_ = 2*dim_ + 2;
+    width_ = 2*dim_ + 1;
     const std::size_t size = static_cast<std::size_t>(mesh.nNodes)*width_;
     if (data_.size() != size)
     {
@@ -72,7 +85,7 @@ void InterfacePlanes::clear(const SimplexMesh& mesh)
 template<int dim>
 inline void InterfacePlanes::offer(const SimplexMesh& mesh, int node, const double* plane)
 {
-    constexpr int width = 2*dim + 2;
+    constexpr int width = 2*dim + 1;
     const double then = squaredDistance<dim>(&mesh.x[static_cast<std::size_t>(node)*dim], plane), now = nearest_[node];
     double* own = &next_[static_cast<std::size_t>(node)*width];
     if (now < none)
@@ -82,7 +95,7 @@ inline void InterfacePlanes::offer(const SimplexMesh& mesh, int node, const doub
             return;
         if (then > now - tolerance)
         {
-            const bool isSame = then == now && std::equal(plane, plane + 2*dim, own);
+            const bool isSame = then == now && std::equal(plane, plane + width, own);
             if (isSame || !comesFirst(plane, own, dim, std::sqrt(std::max(now, then))*tieTolerance))
                 return;
         }
@@ -107,7 +120,7 @@ void InterfacePlanes::planesOfCutElements(const SimplexMesh& mesh, const std::ve
         if (!isCut(nodes, nCorners, level) || (cover && cover->state[e] == ElementState::Solid))
             continue;
 
-        double plane[8] = {}, gradient[3] = {};
+        double plane[7] = {}, gradient[3] = {};
         int nCrossings = 0;
         for (int a = 0; a < nCorners; ++a)
         {
@@ -132,8 +145,7 @@ void InterfacePlanes::planesOfCutElements(const SimplexMesh& mesh, const std::ve
             plane[d] /= nCrossings;
             plane[dim_ + d] = gradient[d]/slope;    // slope > 0: the level changes sign
         }
-        plane[2*dim_] = slope;
-        plane[2*dim_ + 1] = 1;
+        plane[2*dim_] = std::max(mesh.h[e], longestEdge(mesh, e)/std::sqrt(dim_));
         cutElements_.push_back(e);
         cutPlanes_.insert(cutPlanes_.end(), plane, plane + width_);
     }
@@ -252,8 +264,27 @@ void InterfacePlanes::exchange(const SimplexMesh& mesh, const Halo& halo)
     }
 }
 
+double InterfacePlanes::distanceFromPlane(const SimplexMesh& mesh, int node) const
+{
+    double result = 0;
+    for (int d = 0; d < dim_; ++d)
+        result += normal(node)[d]*(mesh.x[static_cast<std::size_t>(node)*dim_ + d] - point(node)[d]);
+    return result;
+}
+
+/// Of the nodes that hand their planes on next those near them; false where no rank has any. Thin elements have more rings within the profile, whose width is
+/// that of the element's size.
+bool InterfacePlanes::keepNear(const SimplexMesh& mesh, const Halo& halo, const Extent& extent)
+{
+    if (!extent.width)
+        return false;
+    const auto isFar = [&](int i) { return std::abs(distanceFromPlane(mesh, i)) > extent.widths*(*extent.width)[i]; };
+    changed_.erase(std::remove_if(changed_.begin(), changed_.end(), isFar), changed_.end());
+    return halo.any(!changed_.empty());
+}
+
 void InterfacePlanes::propagate(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo,
-    const std::vector<double>& level, int nRings, const Cover* cover, bool hasMeanNormals)
+    const std::vector<double>& level, const Extent& extent, const Cover* cover, bool hasMeanNormals)
 {
     clear(mesh);
     planesOfCutElements(mesh, level, cover);
@@ -263,21 +294,17 @@ void InterfacePlanes::propagate(const SimplexMesh& mesh, const NodeGraph& graph,
     if (hasMeanNormals)
         exchange(mesh, halo);   // the means of elements that touch no owned node lack what other ranks hold
     // Two rings of elements are held: two stages are right on the owned nodes before copies must be refreshed.
-    for (int ring = 1; ring <= nRings; ++ring)
+    for (int ring = 1; ring <= extent.rings || keepNear(mesh, halo, extent); ++ring)
     {
         dim_ == 2 ? sweep<2>(mesh, graph) : sweep<3>(mesh, graph);
-        if (ring % 2 == 1 || ring == nRings)
+        if (ring % 2 == 1 || ring >= extent.rings)
             exchange(mesh, halo);
     }
-    if (nRings < 1)
+    if (extent.rings < 1)
         exchange(mesh, halo);
 
     for (int i : nodes_)
-    {
-        distance_[i] = 0;
-        for (int d = 0; d < dim_; ++d)
-            distance_[i] += normal(i)[d]*(mesh.x[static_cast<std::size_t>(i)*dim_ + d] - point(i)[d]);
-    }
+        distance_[i] = distanceFromPlane(mesh, i);
 }
 
 } // namespace flotsam

@@ -16,19 +16,27 @@ struct Cover;
 class InterfacePlanes
 {
 public:
-    bool has(int node) const { return !data_.empty() && at(node)[2*dim_ + 1] != 0; }
+    bool has(int node) const { return !data_.empty() && at(node)[2*dim_] > 0; }
     const double* point(int node) const { return at(node); }             ///< dim: on the surface, inside the cut element [m]
     const double* normal(int node) const { return at(node) + dim_; }     ///< dim: unit, into the liquid
-    double slope(int node) const { return at(node)[2*dim_]; }            ///< |grad level| in the cut element [unit of level / m]
+    /// How far beside the plane's own point it speaks for the surface: length of the cut element, in stretched ones its longest edge over sqrt(dim) [m].
+    double reach(int node) const { return at(node)[2*dim_]; }
     double distance(int node) const { return distance_[node]; }          ///< normal.(x - point): positive in the liquid [m]
     const std::vector<int>& nodes() const { return nodes_; }             ///< local nodes that have a plane, no order
 
-    /// Planes of the zero level of `level` (nNodes, halo up to date, positive in the liquid), handed on over `nRings`
-    /// rings of nodes; a node takes the plane with the nearest point. Elements that `cover` calls solid are left out.
-    /// hasMeanNormals: normals are means over the neighbouring cut elements.
+    /// How far planes are handed on: over so many rings of nodes, and from there over nodes within so many profile widths (nNodes [m]) of their plane.
+    struct Extent
+    {
+        int rings;
+        const std::vector<double>* width = nullptr; ///< null: over the rings alone
+        double widths = 0;
+    };
+
+    /// Planes of the zero level of `level` (nNodes, halo up to date, positive in the liquid), handed on; a node takes the plane with the nearest point.
+    /// Elements that `cover` calls solid are left out. hasMeanNormals: normals are means over the neighbouring cut elements.
     /// Collective; the result does not depend on the number of ranks.
-    void propagate(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo,
-        const std::vector<double>& level, int nRings, const Cover* cover = nullptr, bool hasMeanNormals = false);
+    void propagate(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const std::vector<double>& level, const Extent& extent,
+        const Cover* cover = nullptr, bool hasMeanNormals = false);
 
 private:
     const double* at(int node) const { return &data_[static_cast<std::size_t>(node)*width_]; }
@@ -40,17 +48,19 @@ private:
     template<int dim> void offer(const SimplexMesh& mesh, int node, const double* plane);
     template<int dim> void sweep(const SimplexMesh& mesh, const NodeGraph& graph);
     void commit();
+    double distanceFromPlane(const SimplexMesh& mesh, int node) const;
+    bool keepNear(const SimplexMesh& mesh, const Halo& halo, const Extent& extent);
     void exchange(const SimplexMesh& mesh, const Halo& halo);
 
     int dim_ = 0, width_ = 0;
-    std::vector<double> data_;      // nNodes*width_: point, normal, slope, flag
+    std::vector<double> data_;      // nNodes*width_: point, normal, reach; without a plane 0
     std::vector<double> next_;      // the same, during a sweep
     std::vector<double> nearest_;   // squared distance of a node from the point of its plane in next_ [m^2]; infinite: it has none
     std::vector<double> distance_;
     std::vector<int> nodes_, changed_, offered_;
     std::vector<char> isOffered_;
     std::vector<int> cutElements_;
-    std::vector<double> cutPlanes_;     // per cut element: point, normal, slope, flag
+    std::vector<double> cutPlanes_;     // per cut element: point, normal, reach
     std::vector<double> normalSum_;     // per node of cut elements: normals times volume, volume
     std::vector<double> before_;    // halo entries before an exchange
 };

@@ -2,6 +2,8 @@
 #include "foam/boundaryConditions.H"
 #include "foam/dictionaryChecks.H"
 
+#include "equations/materials.hpp"
+
 #include "Function1.H"
 #include "vectorField.H"
 
@@ -196,19 +198,20 @@ const std::vector<std::pair<std::string, Maker<VelocityCondition>>>& velocityTab
 
 // ---- pressure
 
-/// values*scale + rho (g.x - ghRef) with the local density: p_rgh -> p. `isFull`: the values are p already.
+/// values*scale + rho (g.x - ghRef) with the density that the fluid has there (traces of alpha weigh nothing: another one along the top would set the gas in
+/// motion): p_rgh -> p. `isFull`: the values are p already.
 NodalValues fullPressure(const ConditionInput& in, NodalValues values, bool isFull)
 {
     const bool addGravity = !isFull && in.field == "p_rgh";
     std::vector<double> potential;
     for (int node : in.nodes->nodes) potential.push_back(addGravity ? gravityPotential(in.controls, in.adapter.mesh, node) : 0);
-    return [values = std::move(values), potential, n = in.nodes, fluid = in.controls.fluid, scale = in.scale](const BoundaryState& state, std::vector<double>& out)
+    return [values = std::move(values), potential, n = in.nodes, fluid = in.controls.fluid, numerics = in.controls.numerics,
+               scale = in.scale](const BoundaryState& state, std::vector<double>& out)
     {
         values(state, out);
         for (std::size_t i = 0; i < out.size(); ++i)
         {
-            const double rho = fluid.isTwoPhase ? densityAt(fluid, state.alpha[n->nodes[i]]) : fluid.rhoLiquid;
-            out[i] = out[i]*scale + rho*potential[i];
+            out[i] = out[i]*scale + density(fluid, numerics, state.alpha[n->nodes[i]])*potential[i];
         }
     };
 }
@@ -313,12 +316,6 @@ double gravityPotential(const CaseControls& controls, const SimplexMesh& mesh, i
     const auto x = mesh.spacePoint(node);
     const auto& g = controls.fluid.gravity;
     return g[0]*x[0] + g[1]*x[1] + g[2]*x[2] - controls.gravityPotentialRef;
-}
-
-double densityAt(const FluidProperties& fluid, double alpha)
-{
-    const double a = std::clamp(alpha, 0.0, 1.0);
-    return a*fluid.rhoLiquid + (1 - a)*fluid.rhoGas;
 }
 
 } // namespace flotsam

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam/fieldIO.H"
 #include "equations/liquidShares.hpp"
+#include "equations/materials.hpp"
 #include "foam/boundaryReader.H"
 #include "foam/cellMeans.H"
 #include "foam/dictionaryChecks.H"
@@ -178,7 +179,7 @@ void FoamFields::readStart(FlowState& state) const
     state.p = toNodes([&](int c) { return pressure[c]*pressureScale_; });
     if (!pressureRgh_) return;
     for (int i = 0; i < mesh.nNodes; ++i)
-        state.p[i] += densityAt(controls_.fluid, state.alpha[i])*gravityPotential(controls_, mesh, i);
+        state.p[i] += density(controls_.fluid, controls_.numerics, state.alpha[i])*gravityPotential(controls_, mesh, i);
 }
 
 /// Nodal values from a point field of the start time. False on every rank where one of them has none that fits its mesh.
@@ -315,7 +316,7 @@ void FoamFields::updateNodal(const FlowState& state, const Cover* cover, const s
             for (int d = 0; d < mesh.dim; ++d) v[Ux + mesh.axes[d]] = u[mesh.axes[d]];
         }
         v[Alpha] = state.alpha.empty() ? 1 : state.alpha[i];
-        const double rho = controls_.fluid.isTwoPhase ? densityAt(controls_.fluid, v[Alpha]) : controls_.fluid.rhoLiquid;
+        const double rho = density(controls_.fluid, controls_.numerics, v[Alpha]);
         v[P] = state.p[i]/pressureScale_;
         v[Prgh] = (state.p[i] - rho*gravityPotential(controls_, mesh, i))/pressureScale_;
     }

@@ -61,7 +61,7 @@ void balancedForce(const SimplexMesh& mesh, const Level& level, std::vector<doub
         rho[i] = density(FluidProperties{}, controls, alpha[i]);
     }
     InterfacePlanes planes;
-    planes.propagate(mesh, graph, halo, surfaceLevel(mesh, halo, alpha, width, &cells, nullptr, 1e-10), controls.gravityLayers, nullptr, true);
+    planes.propagate(mesh, graph, halo, surfaceLevel(mesh, halo, alpha, width, &cells, nullptr, 1e-10), {controls.gravityLayers}, nullptr, true);
     std::vector<double> ofSurface;
     surfaceDensity(mesh, FluidProperties{}, controls, planes, width, alpha, ofSurface);
     std::array<double, 3> g{};
