@@ -3,6 +3,7 @@
 #include "demCoupling/foam/bodyGroup.H"
 #include "demCoupling/foam/contactReader.H"
 #include "demCoupling/foam/meshWalls.H"
+#include "demCoupling/foam/repeatedGroups.hpp"
 #include "demCoupling/foam/structureChecks.H"
 #include "foam/dictionaryChecks.H"
 
@@ -170,6 +171,29 @@ SceneFrame makeFrame(const Foam::polyMesh& mesh, const SimplexMesh& simplexMesh,
     return frame;
 }
 
+std::string contentsOf(const Foam::fileName& file)
+{
+    std::string contents, line;
+    Foam::autoPtr<Foam::ISstream> stream = Foam::fileHandler().NewIFstream(file);
+    while (stream->good())
+    {
+        stream->getLine(line);
+        contents += line + '\n';
+    }
+    return contents;
+}
+
+/// In the file itself: OpenFOAM has merged them by now.
+void checkNamesDiffer(const Foam::IOdictionary& dict)
+{
+    if (dict.empty()) return; // no file
+    const auto repeated = repeatedGroups(contentsOf(dict.filePath()), {"structures", "bodies"});
+    if (repeated.empty()) return;
+    const RepeatedGroup& group = repeated.front();
+    failIn(dict, text("'", group.name, "' stands twice in '", group.section, "', in lines ", group.firstLine, " and ", group.line,
+        ": OpenFOAM would make one group of them.\n    Give every group a name of its own; many bodies of one shape are one group with 'poses', 'array' or 'random'."));
+}
+
 /// Without constant/bodies there are none: a file beside it that looks like one must not go unnoticed.
 void warnMisnamed(const Foam::Time& time)
 {
@@ -226,7 +250,9 @@ BodiesInput readBodies(const Foam::polyMesh& mesh, const SimplexMesh& simplexMes
 {
     warnMisnamed(mesh.time());
     const Foam::IOobject io("bodies", mesh.time().constant(), mesh.time(), Foam::IOobject::READ_IF_PRESENT, Foam::IOobject::NO_WRITE, false);
-    return readBodies(Foam::IOdictionary(io), mesh, simplexMesh, halo, gravity);
+    const Foam::IOdictionary dict(io);
+    checkNamesDiffer(dict);
+    return readBodies(dict, mesh, simplexMesh, halo, gravity);
 }
 
 std::vector<Solid> makeSolids(const BodiesInput& input)

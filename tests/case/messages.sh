@@ -46,6 +46,8 @@ refused overlap 'sed -i "s/    bar$/    copy { shape { type box; size (0.02 0.02
     bar copy into
 refused unknownShape 'sed -i "s/type box/type bocks/" constant/bodies' bodies bocks box
 refused unknownBodyKeyword 'sed -i "s/density/densty/" constant/bodies' densty density
+refused sameName 'sed -i "s/^    bar$/    bar { shape { type box; size (0.02 0.02 0.05); } density 700; position (0.05 0 0.025); }\n    bar/" constant/bodies' \
+    constant/bodies "'bar' stands twice in 'bodies'" 'lines 12 and 13'
 refused openStl 'mkdir -p constant/triSurface
     printf "solid open\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 0.01 0 0\nvertex 0 0.01 0\nendloop\nendfacet\nendsolid open\n" \
         > constant/triSurface/open.stl

@@ -2,6 +2,7 @@
 /// constant/bodies: shapes, mass and inertia, members, placement, walls, and one message for every mistake.
 #include "demCoupling/foam/bodiesReader.H"
 #include "demCoupling/foam/bodyPlacement.hpp"
+#include "demCoupling/foam/repeatedGroups.hpp"
 #include "demCoupling/foam/structureChecks.H"
 #include "foam/controlsReader.H"
 #include "support/foamCase.H"
@@ -325,6 +326,55 @@ TEST_CASE("one message for every mistake")
     CHECK(has(s.message(bodies(bar + "array { count (100000 100000 1); spacing (1 1 1); }")), "makes 1e+10 members: at most 1e+06"));
     CHECK(has(s.message(bodies("shape { type cylinder; end1 (1 1 1); end2 (1 1 1); radius 1; } density 1;")), "no length"));
     CHECK(s.message(bodies(bar + "position (0.5 0.01 0.2);")).empty()); // lies on the floor
+}
+
+TEST_CASE("a group that stands twice in its file is found, and nothing else")
+{
+    const auto found = [](const std::string& contents)
+    {
+        std::string result;
+        for (const RepeatedGroup& g : repeatedGroups(contents, {"structures", "bodies"}))
+            result += g.section + "/" + g.name + ":" + std::to_string(g.firstLine) + ":" + std::to_string(g.line) + " ";
+        return result;
+    };
+    const std::string box = " { shape { type box; size (1 1 1); } density 600; }\n";
+    CHECK(found("bodies\n{\n bar" + box + " log" + box + " bar // again\n" + box + "}") == "bodies/bar:3:5 ");
+    CHECK(found("bodies { bar" + box + "}\nbodies { bar" + box + "}") == "bodies/bar:1:3 ");      // merged as well
+    CHECK(found("structures { \"p.*\"" + box + "\"p.*\"" + box + "}") == "structures/\"p.*\":1:2 ");
+    CHECK(found("#ifeq a b\nbodies { a" + box + " a" + box + "}\n#endif") == "bodies/a:2:3 ");
+    CHECK(found("bodies { bar { shape #calc #{ } } } #}; a \"}}\"; /* } */ b (0 (1)); } // }\n bar {} }") == "bodies/bar:1:2 ");
+
+    CHECK(found("bodies { a" + box + " b" + box + "} structures { a" + box + " c" + box + "}") == "");
+    CHECK(found("materials { a {} a {} } bodies { a { array {} array {} } b { array {} poses ( { a {} } { a {} } ); } }") == "");
+    CHECK(found("bodies { // bar {}\n /* bar {} */ bar { note \"bar {\"; code #{ bar { #}; } }") == "");
+    CHECK(found("#ifeq $x 1\nbodies { a" + box + "}\n#else\nbodies { a" + box + "}\n#endif\n#ifeq $x 3\nbodies { a" + box + "}\n#endif") == "");
+    CHECK(found("#include \"base\"\nbodies { a" + box + "#if 1\n a { density 700; }\n#elif 0\n a { density 800; }\n#endif\n b { $a; } }") == "");
+    CHECK(found("bodies { $a { } $a { } ${b} { } ${b} { } x #eval{ 1 + 2 }; y #eval{ 2 }; }") == "");
+    CHECK(found("} } ) #endif bodies { \"a") == "");  // never fails
+}
+
+TEST_CASE("two groups of one name in constant/bodies are refused, those of an included file are changed")
+{
+    Scene s;
+    const auto write = [&](const std::string& file, const std::string& contents)
+    {
+        MPI_Barrier(MPI_COMM_WORLD); // others may still read
+        if (s.halo.rank() == 0) std::ofstream(s.foam.folder() + "/constant/" + file) << "FoamFile { version 2.0; format ascii; class dictionary; object bodies; }\n" << contents;
+        MPI_Barrier(MPI_COMM_WORLD);
+    };
+    BodiesInput input;
+    const auto message = [&] { return messageOf([&] { input = readBodies(s.foam.mesh(), s.adapter.mesh, s.halo, Vec3(0, -9.81, 0)); }); };
+    const std::string first = "bar { " + bar + "position (0.5 0.5 0.2); }\n", second = "bar { " + bar + "position (0.5 0.7 0.2); }\n";
+    write("bodies", "bodies\n{\n" + first + second + "}\n");
+    const std::string refused = message();
+    CHECK(has(refused, "'bar' stands twice in 'bodies', in lines 4 and 5"));
+    CHECK(has(refused, "a name of its own"));
+    write("base", "bodies\n{\n" + first + "}\n");
+    write("bodies", "#include \"base\"\nbodies\n{\nbar { density 700; }\n}\n");
+    CHECK(message().empty());
+    REQUIRE(input.bodies.size() == 1);
+    CHECK(input.bodies[0].mass == doctest::Approx(700*input.bodies[0].volume));
+    MPI_Barrier(MPI_COMM_WORLD);
 }
 
 TEST_CASE("an open STL is refused with its file")
