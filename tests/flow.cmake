@@ -7,6 +7,7 @@ flotsam_test(slipEdge verification SOURCES verification/slipEdge.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(liquidShares unit SOURCES unit/liquidShares.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(viscousForce unit SOURCES unit/viscousForce.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
+flotsam_test(openBoundary unit SOURCES unit/openBoundary.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(profileKeeping unit SOURCES unit/profileKeeping.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(slipNormals unit SOURCES unit/slipNormals.cpp LIBRARIES flotsam_equations)
 flotsam_test(elementLanes unit SOURCES unit/elementLanes.cpp LIBRARIES flotsam_transport_support)
