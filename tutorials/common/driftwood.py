@@ -1,10 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the tutorials with driftwood evaluate from a run: water levels, discharge, overlaps of bodies, forces on structures; means of series.
+"""What the tutorials with driftwood evaluate and check of a run: water levels, discharge, overlaps of bodies, forces on structures; means of series.
 
 A channel has x along its bed and y across, 0 in the middle. SI units.
 """
 import flotsam
 import numpy as np
+from tutorial import parameters
+
+MASS = 1e-6         # error that checkRuns() allows, over the liquid at the start; 1e-12 is reached
 
 
 # --- water ------------------------------------------------------------------------------------------------------------
@@ -36,6 +39,14 @@ def massError(h):
     volume, inflow, outflow = (h.run[name] for name in ("liquidVolume", "inflow", "outflow"))
     unexplained = (volume - volume[0]) - (inflow - inflow[0]) + (outflow - outflow[0])
     return np.abs(unexplained).max() / volume[0]
+
+
+def checkRuns(report, cases, runs):
+    """Adds to the report whether each run has come to its end and lost no water. cases: {name: folder}; runs: {name: {"time", "history"}}."""
+    for name, run in runs.items():
+        end = parameters(cases[name], "system/controlDict")["endTime"]
+        report.within(f"time reached, {name}", run["time"][-1], end - 1e-6, end + 1e-6, "s", "endTime")
+        report.within(f"water neither made nor lost, {name}", massError(run["history"]), 0, MASS, source="conservation")
 
 
 # --- bodies -----------------------------------------------------------------------------------------------------------
