@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """compare.py CASE CASE TOLERANCE: whether two runs of a case ended alike: bodies, forces, fields. Differences are relative to the
-largest value of each quantity."""
+largest value of each quantity, those of volumes to the liquid's."""
 import os
 import sys
 
@@ -29,6 +29,11 @@ for name in histories[0].bodies + histories[0].structures:
         check(f"{name} {quantity}", getattr(a, quantity), getattr(b, quantity))
     for quantity in ("fluidForce", "contactForce"):
         check(f"{name} {quantity}", getattr(a, quantity)[1:], getattr(b, quantity)[1:], weight)
+a, b = (h.run for h in histories)
+for quantity in ("liquidVolume", "inflow", "outflow", "redistributed", "massError"):
+    scale = 1.0 if quantity == "massError" else np.abs(a["liquidVolume"]).max()
+    check(quantity, a[quantity], b[quantity], scale)
+check("largestOverlap", a["largestOverlap"], b["largestOverlap"])
 
 end = flotsam.times(first)[-1]
 for name in ("U", "p_rgh", "alpha.water"):

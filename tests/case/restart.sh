@@ -1,8 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # A run that is stopped and goes on ends like one that was never stopped: to round-off, whatever the tolerance of the linear solver.
-# A floating bar, and one that lands on an edge under water and still touches it when the run is stopped; three bars that jam at the slit
-# dam, with steps that meet write times and an inlet velocity given face by face, on one process and on two.
+# A floating bar, and one that lands on an edge under water and still touches it when the run is stopped; a floating log with steps that
+# grow; three bars that jam at the slit dam, with steps that meet write times and an inlet velocity given face by face, on one process and
+# on two.
 . "$(dirname "$0")/support.sh"
 mkdir -p "$work" && cd "$work" || exit
 
@@ -21,7 +22,11 @@ stopAndGoOn() {
         for case in "$1" "$1.parts"; do (cd "$case" && quietly reconstructPar -latestTime) || exit; done
     fi
     python "$here/compare.py" "$1" "$1.parts" 1e-13 || exit
+    diff <(summary "$1"/log.[fm]*) <(summary "$1.parts"/log.[fm]*) || fail "$1: the summaries of the runs differ"
 }
+
+# summary LOG: what it says of the whole run, the stop included: number of steps, liquid, forces on structures
+summary() { awk '/^ +[0-9]+ +0\.[0-9]/ { steps = $1 } /^  at the start/ { print } /^  forces/ { isTable = 1 } isTable && NF { print } END { print steps " steps" }' "$1"; }
 
 # mustTouch CASE TIME NAME...: bodies and structures that touch something then
 mustTouch() {
@@ -55,6 +60,16 @@ EOF
 fixedSteps touching 0.001 0.08 20
 stopAndGoOn touching 0.06 0.08
 mustTouch touching 0.06 bar edge
+
+# The paper's transport, and a round body, whose cut is corrected. Steps grow; write times count from the start, 0.005 s.
+makeFloatingBar growing
+setNumerics growing 'dualCellTransport off;'
+sed -i 's/type box; size (0.02 0.02 0.05);/type cylinder; end1 (0 0 -0.025); end2 (0 0 0.025); radius 0.012;/' growing/constant/bodies
+for entry in 'deltaT 1e-4' 'startTime 0.005' 'startFrom latestTime' 'writeInterval 0.01'; do
+    setEntry growing/system/controlDict "${entry% *}" "${entry#* }"
+done
+mv growing/0 growing/0.005
+stopAndGoOn growing 0.015 0.025
 
 for ranks in 1 2; do
     makeJam jam$ranks

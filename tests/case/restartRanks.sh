@@ -94,10 +94,11 @@ for case, whole, allowed in (("one", "whole", 0.02), ("two", "whole", 0.02), ("t
     if abs(b.time[0] - before.time[-1]) > 1e-12:
         sys.exit(f"FAILED: {case} goes on at {b.time[0]} s, it was stopped at {before.time[-1]} s")
     missed, way = 0.0, 0.0
-    for name in a.bodies:
-        for quantity in quantities:
+    for name in a.bodies + a.structures:
+        for quantity in quantities + ("fluidForce", "fluidMoment") + (("contactForce", "contactMoment") if name in a.bodies else ()):
             if not np.array_equal(getattr(b[name], quantity)[0], getattr(before[name], quantity)[-1]):
                 sys.exit(f"FAILED: {case}: {quantity} of {name} is not what it was")
+    for name in a.bodies:
         missed = max(missed, np.linalg.norm(b[name].position[-1] - a[name].position[-1]))
         way = max(way, np.linalg.norm(a[name].position[-1] - a[name].position[0]))
     print(f"{case}: {1e6 * missed:.1f} um apart from the run without a stop after a way of {1e3 * way:.2f} mm; mass error {b.run['massError'][-1]:.1e}, before {before.run['massError'][-1]:.1e}")

@@ -35,6 +35,7 @@ RunState example()
     flow.alpha.assign(nNodes, std::numeric_limits<double>::denorm_min());
     flow.alphaOld.assign(nNodes, -0.0);
     flow.fineScale.assign(3 * 5012, 0.1);
+    flow.fineScaleOld.assign(3 * 5012, 1.0 / 7);
     state.arrays["dem/history"] = {1, 2, 3.5};
     state.arrays["a.b%c/d"] = {};
     state.arrays["."] = {4};
@@ -93,6 +94,7 @@ TEST_CASE("a checkpoint gives back every bit")
     CHECK(std::signbit(read.flow.alphaOld.at(0)));
     CHECK(read.flow.alphaOlder.empty());
     CHECK(read.flow.fineScale == written.flow.fineScale);
+    CHECK(read.flow.fineScaleOld == written.flow.fineScaleOld);
     CHECK(read.arrays == written.arrays);
     CHECK(read.scalars == written.scalars);
     CHECK(!std::filesystem::exists(file + ".tmp"));
