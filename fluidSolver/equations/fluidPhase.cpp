@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// The phase field's part of a step: its transport, how it goes on in solids, the surface in it and the gravity that follows from that.
+#include "equations/fluid.hpp"
+
+#include "equations/gravity.hpp"
+#include "equations/materials.hpp"
+#include "equations/solidExtension.hpp"
+#include "equations/surfaceLevel.hpp"
+#include "geometry/meanCover.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flotsam
+{
+
+/// As pressure boundaries read it, which make p of p_rgh: what is left in a solid may be the water on its other side.
+const std::vector<double>& Fluid::alphaOfPatches()
+{
+    if (!cover_ || !fluid_.isTwoPhase) return state_.alpha;
+    patchAlpha_ = state_.alpha;
+    takeFromFluidBeside(mesh_, halo_, *cover_, equation_.isPatchPressureFixed(), patchAlpha_);
+    return patchAlpha_;
+}
+
+const std::vector<double>& Fluid::halfStep(const std::vector<double>& now, const std::vector<double>& old, double dt,
+    std::vector<double>& work) const
+{
+    if (state_.dt <= 0 || old.size() != now.size()) return now;
+    const double e = 0.5*dt/state_.dt;
+    work.resize(now.size());
+    for (std::size_t k = 0; k < now.size(); ++k) work[k] = now[k] + e*(now[k] - old[k]);
+    return work;
+}
+
+/// The last solution and gravity are void from here until they are computed anew: they lend their memory, and are left empty.
+TransportReport Fluid::advancePhase(double dt)
+{
+    const std::vector<double>& u = halfStep(state_.u, state_.uOld, dt, x_);
+    const std::vector<double>& fine = halfStep(state_.fineScale, state_.fineScaleOld, dt, force_);
+    const TransportReport report = transportPhase(dt, u, fine);
+    x_.clear();
+    force_.clear();
+    return report;
+}
+
+TransportReport Fluid::transportPhase(double dt, const std::vector<double>& u, const std::vector<double>& fine)
+{
+    const std::vector<char>& isFixed = equation_.isPatchPressureFixed();
+    if (isMoved_) setMeanCover(mesh_, start_, *cover_, during_);
+    const Cover* during = isMoved_ ? &during_ : cover_;
+    if (!supg_)
+    {
+        const SurfaceReading surface{level_, planes_, profileRate()};
+        return transport_.advance(state_.alpha, dt, u, fine, during, patches_, values_, isFixed, ghostFlux_, cover_, surface.rate > 0 ? &surface : nullptr);
+    }
+    supg_->setHistory(state_.alphaOlder, state_.dt);
+    return supg_->advance(state_.alpha, dt, u, fine, during, patches_, values_, isFixed, ghostFlux_, cover_);
+}
+
+void Fluid::setKeptLiquid(double volume)
+{
+    if (supg_) supg_->setLiquidVolume(volume); else transport_.setLiquidVolume(volume);
+}
+
+/// Of the surface's level, in widths: a hundredth of the way that it went in the last time step. Exact at rest, where any other would be a current.
+double Fluid::levelTolerance() const
+{
+    constexpr double share = 1e-2, least = 1e-10, most = 1e-2;
+    const double way = longestWay(mesh_, halo_, transport_.width(), state_);
+    return std::clamp(share*way, least, most);
+}
+
+/// SurfaceReading::rate; 0 where nothing reads the surface.
+double Fluid::profileRate() const
+{
+    const std::array<double, 3>& g = fluid_.gravity;
+    return controls_.balancedGravity && !supg_ ? controls_.profileKeeping*std::sqrt(std::hypot(g[0], g[1], g[2])) : 0;
+}
+
+/// Planes of the free surface. The level is found once a step.
+void Fluid::findSurface(const Cover* cover)
+{
+    if (!isLevelKnown_) level_ = surfaceLevel(mesh_, halo_, state_.alpha, transport_.width(), profileCells(), cover, levelTolerance());
+    isLevelKnown_ = true;
+    planes_.propagate(mesh_, graph_, halo_, level_, planesExtent(controls_, transport_.width()), cover, true);
+}
+
+/// Inside solids the phase field continues the free surface outside: the nearest plane's profile, so that a plane
+/// reaching into a solid stays a plane; away from the surface the mean of the neighbours nearer to the fluid.
+void Fluid::extendPhase()
+{
+    extendIntoSolids(mesh_, graph_, halo_, *cover_, state_.alpha);
+    isLevelKnown_ = false;
+    findSurface(cover_);
+    for (int i : planes_.nodes())
+    {
+        if (cover_->isActiveNode[i]) continue;
+        state_.alpha[i] = profileSlab(profileCells(), i, planes_.normal(i), planes_.distance(i), transport_.width()[i]).mean();
+        level_[i] = planes_.distance(i);
+    }
+    halo_.update(state_.alpha, 1);
+    halo_.update(level_, 1);
+}
+
+std::vector<double> Fluid::nodalDensity() const
+{
+    std::vector<double> rho(mesh_.nNodes);
+    for (int i = 0; i < mesh_.nNodes; ++i) rho[i] = density(fluid_, controls_, fluid_.isTwoPhase ? state_.alpha[i] : 1);
+    return rho;
+}
+
+/// Gravity per element, into force_; cover: of what is computed.
+void Fluid::setGravity(const Cover* cover)
+{
+    const std::vector<double> rho = nodalDensity();
+    std::vector<double> ofSurface;
+    const bool isBalanced = fluid_.isTwoPhase && controls_.balancedGravity;
+    if (isBalanced)
+    {
+        findSurface(cover_);
+        surfaceDensity(mesh_, fluid_, controls_, planes_, transport_.width(), state_.alpha, ofSurface);
+    }
+    gravityForce(mesh_, fluid_.gravity, rho, isBalanced ? &planes_ : nullptr, ofSurface, cover, force_);
+}
+
+} // namespace flotsam
