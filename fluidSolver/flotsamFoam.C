@@ -258,7 +258,7 @@ int main(int argc, char* argv[])
             Foam::IOobject(Foam::fvMesh::defaultRegion, runTime.timeName(), runTime, Foam::IOobject::MUST_READ)
         );
         using flotsam::Task;
-        flotsam::run(runTime, mesh, args.found("cell-cost") ? Task::WeighCells : args.found("dry-run") ? Task::Check : Task::Run);
+        flotsam::run(runTime, mesh, args.found("dry-run") ? Task::Check : args.found("cell-cost") ? Task::WeighCells : Task::Run);
     }
     catch (const std::exception& error)
     {
