@@ -128,7 +128,6 @@ void RunOutput::continueShared(CoupledStep& step, const FoamFields& fields)
     const bool isNodal = fields.readNodes(start);
     if (!isNodal) fields.readStart(start);
     start.time = state.flow.time;
-    start.step = state.flow.step;
     step.restore(std::move(start), state.arrays, isNodal ? CoupledStep::Fields::Nodal : CoupledStep::Fields::Cells);
     if (!isNodal) mass_.initial += step.fluid().liquidVolume() - mass_.final; // what reading the cells changes is no error of the run
     Foam::Info<< "continuing from time " << runTime_.timeName() << " on other processes than those that wrote it: bodies, contact and sums exactly; velocity, pressure and "

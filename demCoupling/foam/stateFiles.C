@@ -43,7 +43,7 @@ void broadcast(std::vector<T>& values, MPI_Datatype type, MPI_Comm comm)
 void broadcast(RunState& state, MPI_Comm comm)
 {
     std::vector<char> names;
-    std::vector<double> values{state.flow.time, double(state.flow.step), state.flow.dt, state.flow.dtOld, double(state.arrays.size())};
+    std::vector<double> values{state.flow.time, state.flow.dt, double(state.arrays.size())};
     const auto put = [&](const std::string& name, const double* data, std::size_t n)
     {
         names.insert(names.end(), name.begin(), name.end());
@@ -58,16 +58,14 @@ void broadcast(RunState& state, MPI_Comm comm)
 
     state = RunState();
     state.flow.time = values[0];
-    state.flow.step = long(values[1]);
-    state.flow.dt = values[2];
-    state.flow.dtOld = values[3];
-    const double* at = &values[5];
+    state.flow.dt = values[1];
+    const double* at = &values[3];
     std::istringstream list(std::string(names.begin(), names.end()));
     std::string name;
     for (long k = 0; std::getline(list, name); ++k)
     {
         const std::size_t n = std::size_t(*at++);
-        if (k < long(values[4])) state.arrays[name].assign(at, at + n);
+        if (k < long(values[2])) state.arrays[name].assign(at, at + n);
         else state.scalars[name] = *at;
         at += n;
     }
@@ -130,9 +128,7 @@ void StateFiles::write(RunState state, const std::vector<std::string>& ofProcess
     const FlowState& flow = state.flow;
     FlowState times;
     times.time = flow.time;
-    times.step = flow.step;
     times.dt = flow.dt;
-    times.dtOld = flow.dtOld;
     state.flow = times;
     const Foam::fileName folder = runTime_.timePath()/"uniform";
     Foam::mkDir(folder);

@@ -10,11 +10,11 @@ namespace flotsam
 struct FlowState
 {
     double time = 0;
-    long step = 0;                      ///< steps done
-    double dt = 0, dtOld = 0;           ///< last two steps [s]; 0 before they exist
+    double dt = 0;                      ///< last step [s]; 0 before the first
     std::vector<double> u, uOld;        ///< nNodes*dim velocity at t^n, t^(n-1) [m/s]
     std::vector<double> p, pOld;        ///< nNodes pressure at t^n, t^(n-1) [Pa] (full pressure)
-    std::vector<double> alpha, alphaOld, alphaOlder; ///< nNodes phase field, 1 liquid
+    std::vector<double> alpha, alphaOld; ///< nNodes phase field, 1 liquid
+    std::vector<double> alphaOlder;     ///< set as a step begins: alphaOld until then
     double startLiquid = -1;            ///< volume of a sharp start field [m^dim]; negative: that of alpha at the nodes
     std::vector<double> fineScale, fineScaleOld; ///< nElements*dim: u' = -tau r_m of the last two solves [m/s]
 };

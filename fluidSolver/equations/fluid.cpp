@@ -256,10 +256,8 @@ void Fluid::endStep()
     moveInactiveNodes();
     equation_.ghostFluxes(x_, ghostFlux_);
     if (fluid_.isTwoPhase && !supg_ && controls_.surfaceTimeOrder == 2) massFluxes_.keep(transport_, state_.alphaOld, state_.alpha);
-    state_.dtOld = state_.dt;
     state_.dt = time_.dt;
     state_.time += time_.dt;
-    ++state_.step;
 }
 
 void Fluid::rejectStep()

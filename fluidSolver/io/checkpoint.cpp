@@ -24,7 +24,7 @@ using Field = std::vector<double> FlowState::*;
 struct NamedField { const char* name; Field field; };
 constexpr NamedField flowFields[] = {
     {"u", &FlowState::u}, {"uOld", &FlowState::uOld}, {"p", &FlowState::p}, {"pOld", &FlowState::pOld},
-    {"alpha", &FlowState::alpha}, {"alphaOld", &FlowState::alphaOld}, {"alphaOlder", &FlowState::alphaOlder},
+    {"alpha", &FlowState::alpha}, {"alphaOld", &FlowState::alphaOld},
     {"fineScale", &FlowState::fineScale}, {"fineScaleOld", &FlowState::fineScaleOld}};
 
 /// HDF5 takes '/' for a group; a name of the map may hold any character.
@@ -78,9 +78,7 @@ void writeContent(Hdf5File& out, const RunState& state)
     out.setAttribute("/", "formatVersion", formatVersion);
     out.setAttribute("/flow", "nNodes", std::int64_t(flow.p.size()));
     out.setAttribute("/flow", "time", flow.time);
-    out.setAttribute("/flow", "step", std::int64_t(flow.step));
     out.setAttribute("/flow", "dt", flow.dt);
-    out.setAttribute("/flow", "dtOld", flow.dtOld);
     for (const auto& f : flowFields) out.writeArray(std::string("/flow/") + f.name, flow.*f.field);
     for (const auto& a : state.arrays) out.writeArray("/arrays/" + escaped(a.first), a.second);
     for (const auto& s : state.scalars) out.writeArray("/scalars/" + escaped(s.first), {s.second});
@@ -157,9 +155,7 @@ RunState readCheckpoint(const std::string& file, std::size_t nNodes)
     RunState state;
     FlowState& flow = state.flow;
     flow.time = in.realAttribute("/flow", "time");
-    flow.step = long(in.integerAttribute("/flow", "step"));
     flow.dt = in.realAttribute("/flow", "dt");
-    flow.dtOld = in.realAttribute("/flow", "dtOld");
     for (const auto& f : flowFields) flow.*f.field = in.readArray(std::string("/flow/") + f.name);
     checkNodes(in, flow, nNodes, file);
     for (const auto& name : in.names("/arrays")) state.arrays[unescaped(name)] = in.readArray("/arrays/" + name);

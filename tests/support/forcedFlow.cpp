@@ -149,7 +149,6 @@ SolveReport ForcedFlow::step(double dt)
         for (int d = 0; d < dim; ++d) state_.u[std::size_t(i)*dim + d] = x_[std::size_t(i)*B + d];
         state_.p[i] = x_[std::size_t(i)*B + dim];
     }
-    state_.dtOld = state_.dt;
     state_.dt = dt;
     state_.time = t;
     return report;
