@@ -80,7 +80,7 @@ private:
     void findLayerShares();
     template<int D> void assembleLayers();
     template<int D> void addLayerElement(int e, double share);
-    template<int D> void coupleLayers(int s, const std::vector<int>& facets);
+    template<int D> void coupleLayers(int s);
     template<int D> void addConductance(int a, int b, double conductance, double hydrostatic);
     template<int D> void assembleGhosts();
     void findFilms();
@@ -133,6 +133,8 @@ private:
     std::vector<FilmPair> films_;
     struct LayerElement { int element; double share; }; // share of the solids' surface there that they cover of each other
     std::vector<LayerElement> layers_;
+    std::vector<int> coveredByElement_;         // positions in Cover::coveredFacets, by element and solid
+    std::vector<std::vector<int>> coveredOf_;   // per solid: of what is covered of it and what it covers of others
     std::vector<char> isLayerNode_;             // nNodes, empty: no layers on any rank; nodes of layers in solids and pockets
     std::vector<int> placeInSolid_;             // nNodes: in the coupling being assembled, else -1
     std::vector<double> mass_, swept_;          // owned nodes: inertia of the fluid there; what moving surfaces take from it, a half [kg/s]

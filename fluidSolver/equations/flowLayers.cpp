@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <tuple>
 
 namespace flotsam
 {
@@ -63,21 +65,28 @@ void FlowEquation::findLayers()
 void FlowEquation::findLayerShares()
 {
     layers_.clear();
-    std::vector<CoveredFacet> facets = step_.cover->coveredFacets;
-    std::stable_sort(facets.begin(), facets.end(), [](const CoveredFacet& a, const CoveredFacet& b) { return std::pair(a.element, a.solid) < std::pair(b.element, b.solid); });
+    const std::vector<CoveredFacet>& facets = step_.cover->coveredFacets;
+    coveredByElement_.resize(facets.size());
+    std::iota(coveredByElement_.begin(), coveredByElement_.end(), 0);
+    std::sort(coveredByElement_.begin(), coveredByElement_.end(), [&](int a, int b)
+    {
+        return std::tuple(facets[a].element, facets[a].solid, a) < std::tuple(facets[b].element, facets[b].solid, b);
+    });
     for (std::size_t k = 0; k < facets.size();)
     {
         double covered[3] = {}, alone = 0;
-        const std::size_t first = k;
-        for (; k < facets.size() && facets[k].element == facets[first].element && facets[k].solid == facets[first].solid; ++k)
+        const CoveredFacet& first = facets[coveredByElement_[k]];
+        for (; k < facets.size(); ++k)
         {
-            const double* area = facets[k].area;
+            const CoveredFacet& facet = facets[coveredByElement_[k]];
+            if (facet.element != first.element || facet.solid != first.solid) break;
+            const double* area = facet.area;
             for (int d = 0; d < 3; ++d) covered[d] += area[d];
             alone += std::hypot(area[0], area[1], area[2]);
         }
         const double share = std::min(1.0, std::hypot(covered[0], covered[1], covered[2])/alone);
-        if (!layers_.empty() && layers_.back().element == facets[first].element) layers_.back().share = std::max(layers_.back().share, share);
-        else layers_.push_back({facets[first].element, share});
+        if (!layers_.empty() && layers_.back().element == first.element) layers_.back().share = std::max(layers_.back().share, share);
+        else layers_.push_back({first.element, share});
     }
 }
 
@@ -107,15 +116,14 @@ void FlowEquation::addLayerElement(int e, double share)
 }
 
 /// The pressure on what others cover of solid s and it of others, and the volume that it makes room for by moving. Of two solids that move both list what they cover of each other: half each.
-/// facets: the covered ones of s and those of others that it covers.
 template<int D>
-void FlowEquation::coupleLayers(int s, const std::vector<int>& facets)
+void FlowEquation::coupleLayers(int s)
 {
     constexpr int N = D + 1, B = D + 1, nDof = RigidArm<D>::nDof;
     const std::vector<Solid>& solids = *step_.solids;
     SolidCoupling& coupling = system_.solids[s];
     for (std::size_t k = 0; k < coupling.node.size(); ++k) placeInSolid_[coupling.node[k]] = int(k);
-    for (int k : facets)
+    for (int k : coveredOf_[s])
     {
         const CoveredFacet& facet = step_.cover->coveredFacets[k];
         if (step_.cover->solidVolume[facet.other] == 0 && step_.cover->solidArea[facet.other] == 0) continue; // beside the mesh
@@ -149,15 +157,16 @@ void FlowEquation::assembleLayers()
         system_.pressureMass[i] = 1e30;         // nothing viscous
     }
     for (const LayerElement& layer : layers_) addLayerElement<D>(layer.element, layer.share);
-    std::vector<std::vector<int>> facets(system_.solids.size()); // many solids: not all facets for each
+    coveredOf_.resize(system_.solids.size()); // many solids: not all facets for each
+    for (std::vector<int>& facets : coveredOf_) facets.clear();
     for (std::size_t k = 0; k < step_.cover->coveredFacets.size(); ++k)
     {
         const CoveredFacet& facet = step_.cover->coveredFacets[k];
         if (facet.other < 0) continue;
-        facets[facet.solid].push_back(int(k));
-        facets[facet.other].push_back(int(k));
+        coveredOf_[facet.solid].push_back(int(k));
+        coveredOf_[facet.other].push_back(int(k));
     }
-    for (std::size_t s = 0; s < system_.solids.size(); ++s) coupleLayers<D>(int(s), facets[s]);
+    for (std::size_t s = 0; s < system_.solids.size(); ++s) coupleLayers<D>(int(s));
 }
 
 template void FlowEquation::assembleLayers<2>();

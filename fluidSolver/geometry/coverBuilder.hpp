@@ -143,6 +143,7 @@ private:
     std::vector<double> aloneDistance_; // nNodes, scratch
     std::vector<int> aloneFace_;        // nNodes, scratch
     std::vector<KnownVolume> knownVolumes_;
+    std::vector<int> sharedCuts_;       // cut elements with nodes of several solids
 };
 
 /// Elements that a solid at `distance` from the node may cut: all of a node inside. Of a node outside those where an edge of the solid may pass

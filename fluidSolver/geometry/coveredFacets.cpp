@@ -12,9 +12,9 @@ namespace flotsam
 void CoverBuilder::findCovered(Cover& cover, const std::vector<Solid>& solids)
 {
     cover.coveredFacets.clear();
-    std::vector<int> shared; // cut elements
+    sharedCuts_.clear();
     for (const CutElement& cut : cover.cuts)
-        if ((mesh_.isOwnedElement[cut.element] || cut.element < mesh_.nInnerElements) && isShared(cover, cover.nearestSolid[nodesOf(cut.element)[0]], cut.element)) shared.push_back(cut.element);
+        if ((mesh_.isOwnedElement[cut.element] || cut.element < mesh_.nInnerElements) && isShared(cover, cover.nearestSolid[nodesOf(cut.element)[0]], cut.element)) sharedCuts_.push_back(cut.element);
     for (std::size_t s = 0; s < solids.size(); ++s)
     {
         if (solids[s].kind == Solid::Kind::Fixed) continue;
@@ -26,7 +26,7 @@ void CoverBuilder::findCovered(Cover& cover, const std::vector<Solid>& solids)
             if (!isShared(cover, solid, e)) return;
             mesh_.dim == 2 ? addAlone<2>(cover, solids, solid, e) : addAlone<3>(cover, solids, solid, e);
         });
-        for (int e : shared) subtractCut(cover, solids, solid, e);
+        for (int e : sharedCuts_) subtractCut(cover, solids, solid, e);
     }
 }
 
