@@ -44,7 +44,7 @@ struct NumericsControls
     double transportCourant = 0.9;  ///< limit of dt sum(outflow)/V of a sub-step
     double densityClip = 0.002;     ///< of alpha at both ends: liquidShare()
     bool balancedGravity = true;    ///< false: rho_e g
-    int gravityLayers = 6;          ///< rings over which interface planes are handed on
+    int gravityLayers = 6;          ///< rings over which interface planes are handed on at least
     int gasDepth = 0;               ///< rings of elements around the water in which the gas is computed; 0: everywhere
     // linear solver
     double tolerance = 3e-5;        ///< residual of the scaled system over its right-hand side
