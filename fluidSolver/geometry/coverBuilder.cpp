@@ -245,6 +245,8 @@ void CoverBuilder::cutFixedSolids(const std::vector<Solid>& solids)
         if (solids[s].kind != Solid::Kind::Fixed) continue;
         std::vector<Sample> samples;
         sample(solids[s], samples);
+        const auto isInside = [&](const Sample& k) { return cutDistance(solids[s], k) < 0; };
+        if (!halo_.any(std::any_of(samples.begin(), samples.end(), isInside))) continue; // beside the mesh: nearest to its nodes, it would hide bodies from them
         applySamples(c, solids, static_cast<int>(s), samples);
         addElementsOf(solids[s], samples);
     }

@@ -312,6 +312,23 @@ TEST_CASE("with what others cover of it every body's surface is closed")
     }
 }
 
+// A plate just under the bed would be nearer to the bed's nodes than a box that stands on it, and take the box's film away.
+TEST_CASE("a structure beside the mesh is not there")
+{
+    for (const int dim : {2, 3})
+    {
+        const Scene scene(dim, 6);
+        std::vector<Solid> solids{makeSolid(makeBox(Vec3::Zero(), {1, 0.2, 3}), {0, -1.11, 0}, Solid::Kind::Fixed)};
+        solids[0].pose.orientation.setIdentity();
+        CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+        const Cover& beside = builder.build(solids);
+        CHECK(std::all_of(beside.nearestSolid.begin(), beside.nearestSolid.end(), [](int s) { return s < 0; }));
+        solids[0].pose.position.y() += 0.03;
+        const Cover& within = builder.build(solids);
+        CHECK(scene.halo.any(std::any_of(within.nearestSolid.begin(), within.nearestSolid.end(), [](int s) { return s == 0; })));
+    }
+}
+
 TEST_CASE("no solids: all fluid")
 {
     const Scene scene(3, 6);
