@@ -99,11 +99,16 @@ private:
     void addElementsOf(const Solid& solid, const std::vector<Sample>& samples);
     void cutElement(Cover& cover, const std::vector<Solid>& solids, int element) const;
     bool isAtEdgeOfOne(const Cover& cover, int element) const;
+    bool endsAtEdge(const Cover& cover, int element) const;
+    bool endsAtEdge(const Cover& cover, int element, int corner) const;
+    template <int dim>
+    void closeFaces(const Cover& cover, const std::vector<Solid>& solids, int element, const double* distance, std::vector<SimplexFacet<dim>>& facets) const;
     template <int dim> void cutElementOf(Cover& cover, const std::vector<Solid>& solids, int element, const double* distance) const;
     template <int dim>
     void storeCut(Cover& cover, const std::vector<Solid>& solids, int element, const SimplexMoments<dim>& cut,
         const SimplexFacet<dim>* facets, int nFacets) const;
     template <int dim> std::array<double, (dim + 1) * dim> verticesOf(int element) const;
+    template <int dim> int cuttingFaces(const Solid& solid, int element, double* cutting) const;
     template <int dim> EdgeCut<dim> cutAtEdge(const Solid& solid, int element) const;
     int solidAt(const Cover& cover, const std::vector<Solid>& solids, int element, const double* shape) const;
     void copyFixedCuts();
