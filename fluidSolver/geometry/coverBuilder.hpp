@@ -82,11 +82,12 @@ private:
     template <class Visit> void forEachElementAlone(const Solid& solid, const std::vector<Sample>& samples, Visit visit);
     template <int dim, class Visit> void visitCutAlone(const Solid& solid, int element, Visit visit) const;
     void findCovered(Cover& cover, const std::vector<Solid>& solids);
-    void addCovered(Cover& cover, const std::vector<Solid>& solids, int solid, int element, double area, const double* normal, const double (*shape)[4]) const;
-    template <int dim> void addAlone(Cover& cover, const std::vector<Solid>& solids, int solid, int element) const;
-    void subtractCut(Cover& cover, const std::vector<Solid>& solids, int solid, int element) const;
+    void addCovered(Cover& cover, int solid, int element, double area, const double* normal, int nPoints, const double (*shape)[4]) const;
+    template <int dim> void addAlone(Cover& cover, const std::vector<Solid>& solids, int solid, CoveredVolume& volume) const;
+    void subtractCut(Cover& cover, int solid, int element) const;
+    void subtractSolidPart(const Cover& cover, CoveredVolume& volume) const;
+    void addSolidPart(double sign, const double* first, const double* second, CoveredVolume& volume) const;
     bool isShared(const Cover& cover, int solid, int element) const;
-    int nearestOther(const Cover& cover, const std::vector<Solid>& solids, int solid, int element, const double* shape) const;
     Vec3 pointIn(int element, const double* shape) const;
     bool moveSurface(OffsetSearch& search, Solid& solid, const OwnCut& own);
     const Cover& cutMovingSolids(const std::vector<Solid>& solids);
