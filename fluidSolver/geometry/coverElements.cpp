@@ -135,6 +135,7 @@ void CoverBuilder::cutElementOf(Cover& cover, const std::vector<Solid>& solids, 
     const bool isCut = *std::min_element(distance, distance + dim + 1) < 0;
     const SimplexCut<dim> cut = isCut ? cutSimplex<dim>(distance, mesh_.volume[element], verticesOf<dim>(element).data(), &mesh_.gradN[std::size_t(element) * (dim + 1) * dim])
                                       : wholeSimplex<dim>(mesh_.volume[element]);
+    if (!endsAtEdge(cover, element)) return storeCut<dim>(cover, solids, element, cut, cut.facets, cut.nFacets);
     std::vector<SimplexFacet<dim>> facets(cut.facets, cut.facets + cut.nFacets);
     closeFaces<dim>(cover, solids, element, distance, facets);
     storeCut<dim>(cover, solids, element, cut, facets.data(), static_cast<int>(facets.size()));
