@@ -78,9 +78,15 @@ private:
     void findLayers();
     std::vector<int> findLayerNodes() const;
     void findLayerShares();
+    void findLayerSolids();
     template<int D> void assembleLayers();
     template<int D> void addLayerElement(int e, double share);
-    template<int D> void coupleLayers(int s);
+    template<int D> void coupleLayers();
+    template<int D> bool isOfLayer(int e) const;
+    template<int D> double layerShare(int s, int e, const double* shape) const;
+    template<int D> void addCoveredFacet(int s, const CoveredFacet& facet, SolidCoupling& coupling);
+    template<int D> void addCoveredVolume(int s, const CoveredVolume& volume, SolidCoupling& coupling);
+    template<int D> void addLayerLoad(int e, int a, double factor, const double* load, SolidCoupling& coupling);
     template<int D> void addConductance(int a, int b, double conductance, double hydrostatic);
     template<int D> void assembleGhosts();
     void findFilms();
@@ -134,8 +140,8 @@ private:
     struct LayerElement { int element; double share; }; // share of the solids' surface there that they cover of each other
     std::vector<LayerElement> layers_;
     std::vector<int> coveredByElement_;         // positions in Cover::coveredFacets, by element and solid
-    std::vector<std::vector<int>> coveredOf_;   // per solid: of what is covered of it and what it covers of others
     std::vector<char> isLayerNode_;             // nNodes, empty: no layers on any rank; nodes of layers in solids and pockets
+    std::vector<int> layerSolid_;               // nNodes: whose share of the layers' content is 1 there
     std::vector<int> placeInSolid_;             // nNodes: in the coupling being assembled, else -1
     std::vector<double> mass_, swept_;          // owned nodes: inertia of the fluid there; what moving surfaces take from it, a half [kg/s]
     std::vector<double> sweptOfCut_;            // that half at the corners of every cut element, negative where fluid appears

@@ -60,6 +60,7 @@ void FlowEquation::findLayers()
         if (i < mesh_.nOwned) system_.constraints.push_back(wholeVelocity(i, mesh_.dim));
     }
     findLayerShares();
+    findLayerSolids();
 }
 
 void FlowEquation::findLayerShares()
@@ -115,35 +116,91 @@ void FlowEquation::addLayerElement(int e, double share)
         }
 }
 
-/// The pressure on what others cover of solid s and it of others, and the volume that it makes room for by moving. Of two solids that move both list what they cover of each other: half each.
-template<int D>
-void FlowEquation::coupleLayers(int s)
+/// The nearest; beside fixed solids these, whose own surface is not among what is covered.
+void FlowEquation::findLayerSolids()
 {
-    constexpr int N = D + 1, B = D + 1, nDof = RigidArm<D>::nDof;
     const std::vector<Solid>& solids = *step_.solids;
-    SolidCoupling& coupling = system_.solids[s];
-    for (std::size_t k = 0; k < coupling.node.size(); ++k) placeInSolid_[coupling.node[k]] = int(k);
-    for (int k : coveredOf_[s])
+    const auto isFixed = [&](int s) { return s >= 0 && solids[s].kind == Solid::Kind::Fixed; };
+    layerSolid_ = step_.cover->nearestSolid;
+    for (const CoveredVolume& volume : step_.cover->coveredVolumes)
     {
-        const CoveredFacet& facet = step_.cover->coveredFacets[k];
-        if (step_.cover->solidVolume[facet.other] == 0 && step_.cover->solidArea[facet.other] == 0) continue; // beside the mesh
-        const int* nodes = &mesh_.elements[std::size_t(facet.element)*N];
-        if (std::any_of(nodes, nodes + N, [&](int i) { return !system_.isActive[i]; })) continue;
-        const double weight = (facet.solid == s ? 1 : -1)*(solids[facet.other].kind == Solid::Kind::Fixed ? 1 : 0.5);
-        double force[D], load[nDof] = {};
-        for (int d = 0; d < D; ++d) force[d] = weight*facet.area[d];
-        RigidArm<D>(mesh_, solids[s], nodes, facet.shape).template addLoads<1>(force, load);
-        for (int a = 0; a < N; ++a)
-        {
-            const std::size_t place = placeOf<D>(nodes[a], placeInSolid_, coupling);
-            for (int d = 0; d < nDof; ++d)
-            {
-                if (mesh_.isOwnedElement[facet.element]) coupling.row[(place*nDof + d)*B + D] -= facet.shape[a]*load[d];
-                if (facet.element < mesh_.nInnerElements && nodes[a] < mesh_.nOwned) coupling.column[(place*B + D)*nDof + d] += facet.shape[a]*load[d];
-            }
-        }
+        const int *nodes = &mesh_.elements[std::size_t(volume.element)*(mesh_.dim + 1)], *end = nodes + mesh_.dim + 1;
+        int fixed = -1;
+        for (const int* i = nodes; i < end; ++i)
+            if (const int s = step_.cover->nearestSolid[*i]; isFixed(s) && (fixed < 0 || s < fixed)) fixed = s;
+        for (const int* i = nodes; i < end && fixed >= 0; ++i) layerSolid_[*i] = isFixed(layerSolid_[*i]) ? std::min(layerSolid_[*i], fixed) : fixed;
     }
-    for (int i : coupling.node) placeInSolid_[i] = -1;
+    halo_.update(layerSolid_, 1);
+}
+
+/// All of the element's nodes have a pressure, and its solids a part in the mesh.
+template<int D>
+bool FlowEquation::isOfLayer(int e) const
+{
+    const int* nodes = &mesh_.elements[std::size_t(e)*(D + 1)];
+    return std::all_of(nodes, nodes + D + 1, [&](int i)
+    {
+        const int s = layerSolid_[i];
+        return system_.isActive[i] && (s < 0 || step_.cover->solidVolume[s] != 0 || step_.cover->solidArea[s] != 0);
+    });
+}
+
+/// Solid s's share of what the layer holds at a point of the element: the shares of all are 1.
+template<int D>
+double FlowEquation::layerShare(int s, int e, const double* shape) const
+{
+    double share = 0;
+    for (int a = 0; a <= D; ++a)
+        if (layerSolid_[mesh_.elements[std::size_t(e)*(D + 1) + a]] == s) share += shape[a];
+    return share;
+}
+
+/// factor times the load that the unit of pressure at corner a of the element exerts on a solid, and the volume that its motion makes room for.
+template<int D>
+void FlowEquation::addLayerLoad(int e, int a, double factor, const double* load, SolidCoupling& coupling)
+{
+    constexpr int B = D + 1, nDof = RigidArm<D>::nDof;
+    const int node = mesh_.elements[std::size_t(e)*(D + 1) + a];
+    const std::size_t place = placeOf<D>(node, placeInSolid_, coupling);
+    for (int d = 0; d < nDof; ++d)
+    {
+        if (mesh_.isOwnedElement[e]) coupling.row[(place*nDof + d)*B + D] -= factor*load[d];
+        if (e < mesh_.nInnerElements && node < mesh_.nOwned) coupling.column[(place*B + D)*nDof + d] += factor*load[d];
+    }
+}
+
+/// The pressure on a piece of what is covered: on its solid, less what solid s has of the layer's content there.
+template<int D>
+void FlowEquation::addCoveredFacet(int s, const CoveredFacet& facet, SolidCoupling& coupling)
+{
+    const double weight = (facet.solid == s) - layerShare<D>(s, facet.element, facet.shape);
+    double force[D], load[RigidArm<D>::nDof] = {};
+    for (int d = 0; d < D; ++d) force[d] = weight*facet.area[d];
+    RigidArm<D>(mesh_, (*step_.solids)[s], &mesh_.elements[std::size_t(facet.element)*(D + 1)], facet.shape).template addLoads<1>(force, load);
+    for (int a = 0; a <= D; ++a) addLayerLoad<D>(facet.element, a, facet.shape[a], load, coupling);
+}
+
+/// The rest of the share's surface, where one solid's goes over into another's.
+template<int D>
+void FlowEquation::addCoveredVolume(int s, const CoveredVolume& volume, SolidCoupling& coupling)
+{
+    constexpr int N = D + 1;
+    const int* nodes = &mesh_.elements[std::size_t(volume.element)*N];
+    const double* grad = &mesh_.gradN[std::size_t(volume.element)*N*D];
+    double ofShare[D] = {};
+    for (int a = 0; a < N; ++a)
+        for (int d = 0; d < D && layerSolid_[nodes[a]] == s; ++d) ofShare[d] += grad[a*D + d];
+    for (int a = 0; a < N; ++a)
+    {
+        double load[RigidArm<D>::nDof] = {};
+        for (int b = 0; b < N; ++b)
+        {
+            double force[D];
+            for (int d = 0; d < D; ++d) force[d] = -volume.second[a*N + b]*ofShare[d];
+            RigidArm<D>(mesh_, (*step_.solids)[s], nodes[b]).template addLoads<1>(force, load);
+        }
+        addLayerLoad<D>(volume.element, a, 1, load, coupling);
+    }
 }
 
 template<int D>
@@ -157,16 +214,40 @@ void FlowEquation::assembleLayers()
         system_.pressureMass[i] = 1e30;         // nothing viscous
     }
     for (const LayerElement& layer : layers_) addLayerElement<D>(layer.element, layer.share);
-    coveredOf_.resize(system_.solids.size()); // many solids: not all facets for each
-    for (std::vector<int>& facets : coveredOf_) facets.clear();
+    coupleLayers<D>();
+}
+
+/// What solids cover of each other, and what it makes room for.
+///
+/// Every solid has the pressure on all of its own covered surface: with the cut one it is closed. What two solids cover of each other is not the same surface, though, where the cut
+/// between them rounds a corner or one overlaps another: the sum of the forces on both is that on a small volume between them (CoveredVolume), which would be a force without a reaction.
+/// It is shared out, by P1 shares that are 1 at the nodes nearest to a solid: each share is the force on a closed surface, too.
+template<int D>
+void FlowEquation::coupleLayers()
+{
+    std::vector<std::vector<int>> facets(system_.solids.size()), volumes(system_.solids.size()); // many solids: not all facets for each
+    const auto addTo = [&](std::vector<std::vector<int>>& lists, int s, int k) { if (s >= 0 && (lists[s].empty() || lists[s].back() != k)) lists[s].push_back(k); };
     for (std::size_t k = 0; k < step_.cover->coveredFacets.size(); ++k)
     {
         const CoveredFacet& facet = step_.cover->coveredFacets[k];
-        if (facet.other < 0) continue;
-        coveredOf_[facet.solid].push_back(int(k));
-        coveredOf_[facet.other].push_back(int(k));
+        if (!isOfLayer<D>(facet.element)) continue;
+        addTo(facets, facet.solid, int(k));
+        for (int a = 0; a <= D; ++a) addTo(facets, layerSolid_[mesh_.elements[std::size_t(facet.element)*(D + 1) + a]], int(k));
     }
-    for (std::size_t s = 0; s < system_.solids.size(); ++s) coupleLayers<D>(int(s));
+    for (std::size_t k = 0; k < step_.cover->coveredVolumes.size(); ++k)
+    {
+        const int e = step_.cover->coveredVolumes[k].element;
+        if (!isOfLayer<D>(e)) continue;
+        for (int a = 0; a <= D; ++a) addTo(volumes, layerSolid_[mesh_.elements[std::size_t(e)*(D + 1) + a]], int(k));
+    }
+    for (std::size_t s = 0; s < system_.solids.size(); ++s)
+    {
+        SolidCoupling& coupling = system_.solids[s];
+        for (std::size_t k = 0; k < coupling.node.size(); ++k) placeInSolid_[coupling.node[k]] = int(k);
+        for (int k : facets[s]) addCoveredFacet<D>(int(s), step_.cover->coveredFacets[k], coupling);
+        for (int k : volumes[s]) addCoveredVolume<D>(int(s), step_.cover->coveredVolumes[k], coupling);
+        for (int i : coupling.node) placeInSolid_[i] = -1;
+    }
 }
 
 template void FlowEquation::assembleLayers<2>();

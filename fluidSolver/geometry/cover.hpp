@@ -37,12 +37,21 @@ struct CutFacet
 
 /// A piece of a moving solid's surface in an element that other solids share, where what they leave of it is not what it is alone: bodies that lie on each other or
 /// on structures leave no element between. Pieces of the solid alone have their area, those that the cover has (CutFacet) the opposite: what is left of the sum is covered.
+/// One for each quadrature point.
 struct CoveredFacet
 {
     int element;
-    int solid, other;   ///< the moving (free, prescribed) solid; of the others in the element the nearest
+    int solid;          ///< moving: free, prescribed
     double area[3];     ///< vector into the solid, in-plane components [m^(dim-1)]
-    double shape[4];    ///< shape functions of the element at the centroid
+    double shape[4];    ///< shape functions of the element at the point
+};
+
+/// Of an element with such pieces, or inside of one of their solids: what the moving solids cut out of it alone, less its solid part. Positive where they
+/// overlap, negative where the cover leaves no fluid between them.
+struct CoveredVolume
+{
+    int element;
+    double first[4], second[16];    ///< int N_a, int N_a N_b, as in CutElement
 };
 
 /// Interior face of two active elements of which at least one is cut.
@@ -66,6 +75,7 @@ struct Cover
     std::vector<CutFacet> facets;       ///< a 3D quadrilateral cut is two facets
     std::vector<GhostFace> ghostFaces;
     std::vector<CoveredFacet> coveredFacets;    ///< of owned and of inner elements
+    std::vector<CoveredVolume> coveredVolumes;  ///< likewise
     std::vector<char> isActiveNode;     ///< nNodes: some element with a fluid part holds the node
     std::vector<FilmNode> filmNodes;    ///< on walls, a loose solid less than an element over them: see WallFilm
     std::vector<double> solidVolume;    ///< per solid: sum over owned elements of the part it cuts out, all ranks [m^dim]

@@ -82,11 +82,12 @@ private:
     template <class Visit> void forEachElementAlone(const Solid& solid, const std::vector<Sample>& samples, Visit visit);
     template <int dim, class Visit> void visitCutAlone(const Solid& solid, int element, Visit visit) const;
     void findCovered(Cover& cover, const std::vector<Solid>& solids);
-    void addCovered(Cover& cover, const std::vector<Solid>& solids, int solid, int element, double area, const double* normal, const double (*shape)[4]) const;
-    template <int dim> void addAlone(Cover& cover, const std::vector<Solid>& solids, int solid, int element) const;
-    void subtractCut(Cover& cover, const std::vector<Solid>& solids, int solid, int element) const;
+    void addCovered(Cover& cover, int solid, int element, double area, const double* normal, int nPoints, const double (*shape)[4]) const;
+    template <int dim> void addAlone(Cover& cover, const std::vector<Solid>& solids, int solid, CoveredVolume& volume) const;
+    void subtractCut(Cover& cover, int solid, int element) const;
+    void subtractSolidPart(const Cover& cover, CoveredVolume& volume) const;
+    void addSolidPart(double sign, const double* first, const double* second, CoveredVolume& volume) const;
     bool isShared(const Cover& cover, int solid, int element) const;
-    int nearestOther(const Cover& cover, const std::vector<Solid>& solids, int solid, int element, const double* shape) const;
     Vec3 pointIn(int element, const double* shape) const;
     bool moveSurface(OffsetSearch& search, Solid& solid, const OwnCut& own);
     const Cover& cutMovingSolids(const std::vector<Solid>& solids);
@@ -99,11 +100,16 @@ private:
     void addElementsOf(const Solid& solid, const std::vector<Sample>& samples);
     void cutElement(Cover& cover, const std::vector<Solid>& solids, int element) const;
     bool isAtEdgeOfOne(const Cover& cover, int element) const;
+    bool endsAtEdge(const Cover& cover, int element) const;
+    bool endsAtEdge(const Cover& cover, int element, int corner) const;
+    template <int dim>
+    void closeFaces(const Cover& cover, const std::vector<Solid>& solids, int element, const double* distance, std::vector<SimplexFacet<dim>>& facets) const;
     template <int dim> void cutElementOf(Cover& cover, const std::vector<Solid>& solids, int element, const double* distance) const;
     template <int dim>
     void storeCut(Cover& cover, const std::vector<Solid>& solids, int element, const SimplexMoments<dim>& cut,
         const SimplexFacet<dim>* facets, int nFacets) const;
     template <int dim> std::array<double, (dim + 1) * dim> verticesOf(int element) const;
+    template <int dim> int cuttingFaces(const Solid& solid, int element, double* cutting) const;
     template <int dim> EdgeCut<dim> cutAtEdge(const Solid& solid, int element) const;
     int solidAt(const Cover& cover, const std::vector<Solid>& solids, int element, const double* shape) const;
     void copyFixedCuts();

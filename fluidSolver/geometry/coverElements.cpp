@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// CoverBuilder: the part that works element by element, and what follows from the elements' states.
 #include "geometry/coverBuilder.hpp"
-#include "geometry/cutSimplex.hpp"
+#include "geometry/simplexDivision.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +13,16 @@ namespace
 
 // a facet below this, beside a solid part below negligiblePart, comes from nodes that were set just inside a surface
 constexpr double negligibleFacet = 1e-11;
+
+template <int dim>
+SimplexCut<dim> wholeSimplex(double volume)
+{
+    SimplexCut<dim> whole{};
+    SimplexPoint<dim> corners[dim + 1] = {};
+    for (int a = 0; a <= dim; ++a) corners[a].n[a] = 1;
+    addPart<dim>(whole, corners, volume, volume);
+    return whole;
+}
 
 } // namespace
 
@@ -27,7 +37,7 @@ void CoverBuilder::cutElement(Cover& cover, const std::vector<Solid>& solids, in
     }
     cover.cutIndex[element] = -1;
     if (nSolid == mesh_.dim + 1) cover.state[element] = ElementState::Solid;
-    else if (nSolid == 0 && !isAtEdgeOfOne(cover, element)) cover.state[element] = ElementState::Fluid;
+    else if (nSolid == 0 && !isAtEdgeOfOne(cover, element) && !endsAtEdge(cover, element)) cover.state[element] = ElementState::Fluid;
     else if (mesh_.dim == 2) cutElementOf<2>(cover, solids, element, distance);
     else cutElementOf<3>(cover, solids, element, distance);
 }
@@ -42,6 +52,29 @@ bool CoverBuilder::isAtEdgeOfOne(const Cover& cover, int element) const
     return true;
 }
 
+/// An element of several solids, at the face opposite to `corner`: an edge of one of them passes through the face, and is cut beyond it.
+bool CoverBuilder::endsAtEdge(const Cover& cover, int element, int corner) const
+{
+    const int f = elementFace_[std::size_t(element) * (mesh_.dim + 1) + corner], *nodes = nodesOf(element), first = corner == 0;
+    if (f < 0) return false;
+    bool isMixed = false;
+    for (int a = 0; a <= mesh_.dim; ++a)
+    {
+        if (a == corner) continue;
+        if (cover.nearestSolid[nodes[a]] != cover.nearestSolid[nodes[first]]) return false;
+        isMixed = isMixed || face_[nodes[a]] != face_[nodes[first]];
+    }
+    const int* sides = graph_.faces[f].element;
+    return isMixed && isAtEdgeOfOne(cover, sides[sides[0] == element]);
+}
+
+bool CoverBuilder::endsAtEdge(const Cover& cover, int element) const
+{
+    for (int corner = 0; corner <= mesh_.dim; ++corner)
+        if (endsAtEdge(cover, element, corner)) return true;
+    return false;
+}
+
 template <int dim>
 std::array<double, (dim + 1) * dim> CoverBuilder::verticesOf(int element) const
 {
@@ -53,11 +86,11 @@ std::array<double, (dim + 1) * dim> CoverBuilder::verticesOf(int element) const
 template std::array<double, 6> CoverBuilder::verticesOf<2>(int) const;
 template std::array<double, 12> CoverBuilder::verticesOf<3>(int) const;
 
-/// Cut by those of the solid's faces that do not have the whole element inside.
+/// Of those of the solid's faces that do not have the whole element inside: distances at its nodes, into `cutting`; their number.
 template <int dim>
-EdgeCut<dim> CoverBuilder::cutAtEdge(const Solid& solid, int element) const
+int CoverBuilder::cuttingFaces(const Solid& solid, int element, double* cutting) const
 {
-    double at[dim + 1][maxFaces], cutting[maxFaces * (dim + 1)];
+    double at[dim + 1][maxFaces];
     int nFaces = 0, nCutting = 0;
     for (int a = 0; a <= dim; ++a)
     {
@@ -76,8 +109,15 @@ EdgeCut<dim> CoverBuilder::cutAtEdge(const Solid& solid, int element) const
         }
         if (!isInside) ++nCutting;
     }
-    const auto vertices = verticesOf<dim>(element);
-    return cutSimplexAtEdge<dim>(cutting, nCutting, mesh_.volume[element], vertices.data(), &mesh_.gradN[std::size_t(element) * (dim + 1) * dim]);
+    return nCutting;
+}
+
+template <int dim>
+EdgeCut<dim> CoverBuilder::cutAtEdge(const Solid& solid, int element) const
+{
+    double cutting[maxFaces * (dim + 1)];
+    const int nCutting = cuttingFaces<dim>(solid, element, cutting);
+    return cutSimplexAtEdge<dim>(cutting, nCutting, mesh_.volume[element], verticesOf<dim>(element).data(), &mesh_.gradN[std::size_t(element) * (dim + 1) * dim]);
 }
 template EdgeCut<2> CoverBuilder::cutAtEdge<2>(const Solid&, int) const;
 template EdgeCut<3> CoverBuilder::cutAtEdge<3>(const Solid&, int) const;
@@ -92,9 +132,29 @@ void CoverBuilder::cutElementOf(Cover& cover, const std::vector<Solid>& solids, 
         else storeCut<dim>(cover, solids, element, cut, cut.facets.data(), static_cast<int>(cut.facets.size()));
         return;
     }
-    const SimplexCut<dim> cut = cutSimplex<dim>(distance, mesh_.volume[element], verticesOf<dim>(element).data(),
-        &mesh_.gradN[std::size_t(element) * (dim + 1) * dim]);
-    storeCut<dim>(cover, solids, element, cut, cut.facets, cut.nFacets);
+    const bool isCut = *std::min_element(distance, distance + dim + 1) < 0;
+    const SimplexCut<dim> cut = isCut ? cutSimplex<dim>(distance, mesh_.volume[element], verticesOf<dim>(element).data(), &mesh_.gradN[std::size_t(element) * (dim + 1) * dim])
+                                      : wholeSimplex<dim>(mesh_.volume[element]);
+    if (!endsAtEdge(cover, element)) return storeCut<dim>(cover, solids, element, cut, cut.facets, cut.nFacets);
+    std::vector<SimplexFacet<dim>> facets(cut.facets, cut.facets + cut.nFacets);
+    closeFaces<dim>(cover, solids, element, distance, facets);
+    storeCut<dim>(cover, solids, element, cut, facets.data(), static_cast<int>(facets.size()));
+}
+
+/// Between two solids the cut is linear, in the next element it may be that of an edge of one of them: what is fluid here and inside the solid there, on the face between, is
+/// surface of the solid. Without it the fluid's surface would not be closed, and a pressure all around would drive what is beside the hole.
+template <int dim>
+void CoverBuilder::closeFaces(const Cover& cover, const std::vector<Solid>& solids, int element, const double* distance, std::vector<SimplexFacet<dim>>& facets) const
+{
+    for (int corner = 0; corner <= dim; ++corner)
+    {
+        if (!endsAtEdge(cover, element, corner)) continue;
+        const Solid& solid = solids[cover.nearestSolid[nodesOf(element)[corner == 0]]];
+        double inside[(maxFaces + 1) * (dim + 1)];
+        const int n = cuttingFaces<dim>(solid, element, inside);
+        for (int a = 0; a <= dim; ++a) inside[n * (dim + 1) + a] = -distance[a];
+        addFacePart<dim>(corner, inside, n + 1, mesh_.volume[element], verticesOf<dim>(element).data(), &mesh_.gradN[std::size_t(element) * (dim + 1) * dim], facets);
+    }
 }
 
 template <int dim>

@@ -3,15 +3,18 @@
 #include "geometry/coverBuilder.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <map>
 
 namespace flotsam
 {
 
-/// Of solids that move or may; what fixed ones lose is the reaction, but for what they cover of each other.
+/// Of solids that move or may.
 void CoverBuilder::findCovered(Cover& cover, const std::vector<Solid>& solids)
 {
     cover.coveredFacets.clear();
+    cover.coveredVolumes.clear();
+    std::map<int, CoveredVolume> volumes;
+    const auto volumeOf = [&](int e) -> CoveredVolume& { return volumes.try_emplace(e, CoveredVolume{e, {}, {}}).first->second; };
     sharedCuts_.clear();
     for (const CutElement& cut : cover.cuts)
         if ((mesh_.isOwnedElement[cut.element] || cut.element < mesh_.nInnerElements) && isShared(cover, cover.nearestSolid[nodesOf(cut.element)[0]], cut.element)) sharedCuts_.push_back(cut.element);
@@ -24,9 +27,15 @@ void CoverBuilder::findCovered(Cover& cover, const std::vector<Solid>& solids)
         forEachElementAlone(solids[s], samples_[s], [&](int e)
         {
             if (!isShared(cover, solid, e)) return;
-            mesh_.dim == 2 ? addAlone<2>(cover, solids, solid, e) : addAlone<3>(cover, solids, solid, e);
+            mesh_.dim == 2 ? addAlone<2>(cover, solids, solid, volumeOf(e)) : addAlone<3>(cover, solids, solid, volumeOf(e));
         });
-        for (int e : sharedCuts_) subtractCut(cover, solids, solid, e);
+        for (int e : sharedCuts_) subtractCut(cover, solid, e);
+    }
+    for (const CoveredFacet& facet : cover.coveredFacets) volumeOf(facet.element);
+    for (auto& [element, volume] : volumes)
+    {
+        subtractSolidPart(cover, volume);
+        cover.coveredVolumes.push_back(volume);
     }
 }
 
@@ -36,53 +45,60 @@ bool CoverBuilder::isShared(const Cover& cover, int solid, int element) const
     return std::any_of(nodes, nodes + mesh_.dim + 1, [&](int i) { return cover.nearestSolid[i] != solid; });
 }
 
-/// area: positive for the solid alone; shape: shape functions at the dim quadrature points.
-void CoverBuilder::addCovered(Cover& cover, const std::vector<Solid>& solids, int solid, int element, double area, const double* normal, const double (*shape)[4]) const
+/// area: positive for the solid alone; shape: shape functions at the quadrature points, of equal weights.
+void CoverBuilder::addCovered(Cover& cover, int solid, int element, double area, const double* normal, int nPoints, const double (*shape)[4]) const
 {
-    CoveredFacet& facet = cover.coveredFacets.emplace_back(CoveredFacet{element, solid, -1, {}, {}});
-    for (int d = 0; d < mesh_.dim; ++d) facet.area[d] = area * normal[d];
-    for (int q = 0; q < mesh_.dim; ++q)
-        for (int a = 0; a <= mesh_.dim; ++a) facet.shape[a] += shape[q][a] / mesh_.dim;
-    facet.other = nearestOther(cover, solids, solid, element, facet.shape);
+    for (int q = 0; q < nPoints; ++q)
+    {
+        CoveredFacet& facet = cover.coveredFacets.emplace_back(CoveredFacet{element, solid, {}, {}});
+        for (int d = 0; d < mesh_.dim; ++d) facet.area[d] = area / nPoints * normal[d];
+        std::copy(shape[q], shape[q] + mesh_.dim + 1, facet.shape);
+    }
 }
 
 template <int dim>
-void CoverBuilder::addAlone(Cover& cover, const std::vector<Solid>& solids, int solid, int element) const
+void CoverBuilder::addAlone(Cover& cover, const std::vector<Solid>& solids, int solid, CoveredVolume& volume) const
 {
-    visitCutAlone<dim>(solids[solid], element, [&](const SimplexMoments<dim>&, const SimplexFacet<dim>* facets, int nFacets)
+    visitCutAlone<dim>(solids[solid], volume.element, [&](const SimplexMoments<dim>& fluid, const SimplexFacet<dim>* facets, int nFacets)
     {
+        addSolidPart(1, fluid.first, fluid.second, volume);
         for (int f = 0; f < nFacets; ++f)
         {
             double shape[3][4] = {};
             for (int q = 0; q < dim; ++q) std::copy(facets[f].shape[q], facets[f].shape[q] + dim + 1, shape[q]);
-            addCovered(cover, solids, solid, element, facets[f].area, facets[f].normal, shape);
+            addCovered(cover, solid, volume.element, facets[f].area, facets[f].normal, dim, shape);
         }
     });
 }
 
 /// What the cover has of the solid's surface.
-void CoverBuilder::subtractCut(Cover& cover, const std::vector<Solid>& solids, int solid, int element) const
+void CoverBuilder::subtractCut(Cover& cover, int solid, int element) const
 {
     const CutElement& cut = cover.cuts[cover.cutIndex[element]];
     for (int f = cut.facetStart; f < cut.facetEnd; ++f)
-        if (const CutFacet& facet = cover.facets[f]; facet.solid == solid) addCovered(cover, solids, solid, element, -facet.area, facet.normal, facet.shape);
+        if (const CutFacet& facet = cover.facets[f]; facet.solid == solid) addCovered(cover, solid, element, -facet.area, facet.normal, facet.nPoints, facet.shape);
 }
 
-int CoverBuilder::nearestOther(const Cover& cover, const std::vector<Solid>& solids, int solid, int element, const double* shape) const
+/// Of an element nearest to one solid alone, into which another reaches, it is what the one cuts out, which is not in the sum.
+void CoverBuilder::subtractSolidPart(const Cover& cover, CoveredVolume& volume) const
 {
-    const Vec3 x = pointIn(element, shape);
-    int nearest = -1;
-    double least = 2 * farDistance;
-    for (int a = 0; a <= mesh_.dim; ++a)
+    const double none[16] = {};
+    const int e = volume.element;
+    if (!isShared(cover, cover.nearestSolid[nodesOf(e)[0]], e)) return;
+    if (cover.state[e] == ElementState::Solid) addSolidPart(-1, none, none, volume);
+    else if (cover.state[e] == ElementState::Cut) addSolidPart(-1, cover.cuts[cover.cutIndex[e]].first, cover.cuts[cover.cutIndex[e]].second, volume);
+}
+
+/// first, second: moments of the fluid part.
+void CoverBuilder::addSolidPart(double sign, const double* first, const double* second, CoveredVolume& volume) const
+{
+    const int n = mesh_.dim + 1;
+    const double share = mesh_.volume[volume.element] / n;
+    for (int a = 0; a < n; ++a)
     {
-        const int s = cover.nearestSolid[nodesOf(element)[a]];
-        if (s < 0 || s == solid || s == nearest) continue;
-        const double d = std::abs(solids[s].distance(x));
-        if (d > least || (d == least && s > nearest)) continue;
-        least = d;
-        nearest = s;
+        volume.first[a] += sign * (share - first[a]);
+        for (int b = 0; b < n; ++b) volume.second[a * n + b] += sign * (share * (a == b ? 2 : 1) / (n + 1) - second[a * n + b]);
     }
-    return nearest;
 }
 
 } // namespace flotsam

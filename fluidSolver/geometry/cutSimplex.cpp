@@ -26,6 +26,18 @@ public:
         return std::move(result_);
     }
 
+    /// The part inside of all faces of the simplex's own face opposite to `corner`.
+    std::vector<SimplexFacet<dim>> cutOwnFace(int corner)
+    {
+        Point face[dim] = {};
+        for (int a = 0, i = 0; a <= dim; ++a)
+            if (a != corner) face[i++].n[a] = 1;
+        double opposite[dim + 1] = {};  // falls towards the face
+        opposite[corner] = 1;
+        cutFacet(face, opposite, 0);
+        return std::move(result_.facets);
+    }
+
 private:
     using Point = SimplexPoint<dim>;
 
@@ -78,7 +90,7 @@ private:
         for (int k = 0; k < outside.nFacets; ++k)
         {
             toElement(corners, outside.facets[k].corner, dim, part);
-            cutFacet(part, face, face + 1);
+            cutFacet(part, distances_ + face * (dim + 1), face + 1);
         }
         for (int k = 0; k < inside.nParts; ++k)
         {
@@ -88,8 +100,8 @@ private:
         }
     }
 
-    /// A piece of face `own`, inside of all faces before `face`: keeps what is inside of this one.
-    void cutFacet(const Point* corners, int own, int face)
+    /// A piece of a face, inside of all faces before `face`: keeps what is inside of this one. own: its function, which falls along its normal.
+    void cutFacet(const Point* corners, const double* own, int face)
     {
         if (face == nFaces_) return addFacet(corners, own);
         double values[dim];
@@ -127,11 +139,11 @@ private:
         return n - dim + 1;
     }
 
-    void addFacet(const Point* corners, int face)
+    void addFacet(const Point* corners, const double* own)
     {
         SimplexFacet<dim> facet;
         if (!setFacet<dim>(facet, corners, volume_, vertices_)) return;
-        setDescent<dim>(facet.normal, distances_ + face * (dim + 1), gradN_);
+        setDescent<dim>(facet.normal, own, gradN_);
         result_.facets.push_back(facet);
     }
 
@@ -211,11 +223,20 @@ EdgeCut<dim> cutSimplexAtEdge(const double* distances, int nFaces, double volume
     return EdgeCutter<dim>(distances, nFaces, volume, vertices, gradN).cut();
 }
 
+template <int dim>
+void addFacePart(int corner, const double* distances, int nFaces, double volume, const double* vertices, const double* gradN, std::vector<SimplexFacet<dim>>& facets)
+{
+    const std::vector<SimplexFacet<dim>> parts = EdgeCutter<dim>(distances, nFaces, volume, vertices, gradN).cutOwnFace(corner);
+    facets.insert(facets.end(), parts.begin(), parts.end());
+}
+
 template SimplexCut<2> cutSimplex<2>(const double*, double, const double*, const double*);
 template SimplexCut<3> cutSimplex<3>(const double*, double, const double*, const double*);
 template FluidFraction fluidFraction<2>(const double*);
 template FluidFraction fluidFraction<3>(const double*);
 template EdgeCut<2> cutSimplexAtEdge<2>(const double*, int, double, const double*, const double*);
 template EdgeCut<3> cutSimplexAtEdge<3>(const double*, int, double, const double*, const double*);
+template void addFacePart<2>(int, const double*, int, double, const double*, const double*, std::vector<SimplexFacet<2>>&);
+template void addFacePart<3>(int, const double*, int, double, const double*, const double*, std::vector<SimplexFacet<3>>&);
 
 } // namespace flotsam

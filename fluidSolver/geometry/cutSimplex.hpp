@@ -56,4 +56,8 @@ struct EdgeCut : SimplexMoments<dim>
 template <int dim>
 EdgeCut<dim> cutSimplexAtEdge(const double* distances, int nFaces, double volume, const double* vertices, const double* gradN);
 
+/// Adds the part of a simplex's face, the one opposite to `corner`, where all of several distances (as above) are negative; normals out of the simplex.
+template <int dim>
+void addFacePart(int corner, const double* distances, int nFaces, double volume, const double* vertices, const double* gradN, std::vector<SimplexFacet<dim>>& facets);
+
 } // namespace flotsam

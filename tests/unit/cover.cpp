@@ -135,7 +135,7 @@ TEST_CASE("states, cut indices and facets fit together")
         for (const CutElement& cut : cover.cuts)
         {
             CHECK(cut.volume > 0);
-            CHECK(cut.volume < mesh.volume[cut.element]);
+            CHECK(cut.volume <= mesh.volume[cut.element]); // whole: with one of its faces a solid's surface
             for (int f = cut.facetStart; f < cut.facetEnd; ++f)
             {
                 CHECK(cover.facets[f].element == cut.element);
@@ -263,6 +263,54 @@ TEST_CASE("elements between two solids are counted and their facets belong to th
     CHECK(cutMesh(scene.mesh, scene.graph, scene.halo, solids).nSharedElements == 0);
 }
 
+namespace
+{
+
+/// Largest force of a uniform pressure on the rows of the owned nodes off the mesh's boundary, over the pressure and the mesh size: the fluid's surface is closed if there is none.
+double largestHole(const Scene& scene, const Cover& cover, double h)
+{
+    const SimplexMesh& mesh = scene.mesh;
+    const int dim = mesh.dim;
+    std::vector<double> force(std::size_t(mesh.nNodes) * dim, 0.0);
+    std::vector<char> isBoundary(mesh.nNodes, 0);
+    for (const MeshPatch& patch : mesh.patches)
+        for (int i : patch.faceNodes) isBoundary[i] = 1;
+    for (int e = 0; e < mesh.nElements; ++e)
+        for (int a = 0; a <= dim; ++a)
+            for (int d = 0; d < dim; ++d)
+                force[std::size_t(mesh.elements[std::size_t(e) * (dim + 1) + a]) * dim + d] += fluidVolume(mesh, &cover, e) * mesh.gradN[(std::size_t(e) * (dim + 1) + a) * dim + d];
+    for (const CutFacet& f : cover.facets)
+        for (int a = 0; a <= dim; ++a)
+            for (int d = 0; d < dim; ++d)
+                for (int q = 0; q < f.nPoints; ++q) force[std::size_t(mesh.elements[std::size_t(f.element) * (dim + 1) + a]) * dim + d] -= f.weight[q] * f.shape[q][a] * f.normal[d];
+    double largest = 0;
+    for (int i = 0; i < mesh.nOwned; ++i)
+        for (int d = 0; d < dim && !isBoundary[i]; ++d) largest = std::max(largest, std::abs(force[std::size_t(i) * dim + d]) / std::pow(h, dim - 1));
+    return scene.halo.max(largest);
+}
+
+} // namespace
+
+TEST_CASE("the fluid's surface is closed around solids that touch, in every node's row")
+{
+    for (const int dim : {2, 3})
+    {
+        const int n = dim == 2 ? 24 : 12;
+        Scene scene(dim, n);
+        CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+        for (int k = 0; k < 24; ++k)
+        {
+            // side by side, one on both, an edge of one beside the side of another; overlaps and gaps, a little turned
+            const double by = 0.003 * (k % 3 - 1), turned = 0.01 * (k % 5 - 2);
+            std::vector<Solid> solids = {makeSolid(makeBox(Vec3::Zero(), {0.5, 0.4, 0.7}), {-0.25 - by + 0.011 * k, -0.3, 0.02}, Solid::Kind::Free),
+                makeSolid(makeBox(Vec3::Zero(), {0.5, 0.4, 0.7}), {0.25 + 0.011 * k, -0.3 + 0.004 * k, 0.01}, Solid::Kind::Free),
+                makeSolid(makeBox(Vec3::Zero(), {0.4, 0.3, 0.5}), {0.05 + 0.011 * k, 0.055 + 0.004 * k, 0}, k % 2 ? Solid::Kind::Fixed : Solid::Kind::Prescribed)};
+            for (Solid& solid : solids) solid.pose.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(turned, Vec3::UnitZ()));
+            CHECK(largestHole(scene, builder.build(solids), 2.0 / n) < 1e-12);
+        }
+    }
+}
+
 TEST_CASE("with what others cover of it every body's surface is closed")
 {
     for (const int dim : {2, 3})
@@ -299,8 +347,6 @@ TEST_CASE("with what others cover of it every body's surface is closed")
                 if (f.solid != int(s) || !scene.mesh.isOwnedElement[f.element]) continue;
                 add(f.element, f.shape, f.area);
                 covered += std::abs(f.area[0]);
-                CHECK(f.other >= 0);
-                CHECK(f.other != f.solid);
             }
             scene.halo.sum(moments.data(), 12);
             covered = scene.halo.sum(covered);

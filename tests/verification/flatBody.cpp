@@ -240,7 +240,7 @@ TEST_CASE("a box on a structure has its buoyancy, though no element is between")
         const double buoyancy = rhoWater*g*body.volume;
         std::printf("%dD, on a structure: force of the water %.4f N, buoyancy %.4f N, of the structure %.4f N, speed %.1e m/s\n", dim, record.fluidForce[1], buoyancy,
             record.contactForce[1], record.motion.velocity.norm());
-        CHECK(record.fluidForce[1] == doctest::Approx(buoyancy).epsilon(0.03)); // without the layer -545 and -169 N
+        CHECK(record.fluidForce[1] == doctest::Approx(buoyancy).epsilon(1e-3)); // without the layer -545 and -169 N
         CHECK(record.contactForce[1] == doctest::Approx(body.mass*g - record.fluidForce[1]).epsilon(1e-3));
         CHECK(record.motion.velocity.norm() < 5e-5);
     }
@@ -261,10 +261,19 @@ TEST_CASE("boxes that lie on each other and stand side by side are not pressed t
         const BodyRecord record = run->records()[b];
         std::printf("box %zu: force of the water %.4f %.4f N, buoyancy %.4f N, contact %.4f %.4f N, speed %.1e m/s\n", b, record.fluidForce[0], record.fluidForce[1], buoyancy,
             record.contactForce[0], record.contactForce[1], record.motion.velocity.norm());
-        CHECK(std::abs(record.fluidForce[0]) < 0.03*buoyancy); // without the layers 400, -399, -1 N
-        // without the layers 541, 538, -523 N; the lower two less the film on the bed, on which water creeps in circles
-        CHECK(record.fluidForce[1] == doctest::Approx(buoyancy).epsilon(b == 2 ? 0.03 : 0.1));
+        CHECK(std::abs(record.fluidForce[0]) < 1e-3*buoyancy); // without the layers 400, -399, -1 N
+        // without the layers 541, 538, -523 N; the lower two less the film on the bed
+        const double film = b == 2 ? 0 : filmThickness/(1 + filmThickness)/std::lround(1/0.023);
+        CHECK(record.fluidForce[1] == doctest::Approx(buoyancy*(1 - film/size[1])).epsilon(0.01));
     }
+    // water at rest: 104 Pa off, and 3 m/s in what is left of an element at the joint, where the fluid's surface is not closed
+    const FlowState& state = run->fluid().state();
+    double largest = 0;
+    for (int i = 0; i < tank.mesh.nOwned; ++i)
+        if (run->cover()->isActiveNode[i]) largest = std::max(largest, std::abs(state.p[i] - rhoWater*g*(tank.depth - tank.mesh.x[2*std::size_t(i) + 1])));
+    largest = tank.halo.max(largest);
+    std::printf("pressure off by %.3f Pa\n", largest);
+    CHECK(largest < 3);
 }
 
 TEST_CASE("a box lighter than water floats up from a structure and from another box")

@@ -66,6 +66,49 @@ TEST_CASE("water at rest around a fixed cut cylinder stays at rest and carries i
     CHECK(std::abs(force[0]) < 1e-6);
 }
 
+TEST_CASE("water at rest around boxes that touch stays at rest, carries what they displace and presses none of them sideways")
+{
+    usePetsc();
+    for (const int dim : {2, 3})
+        for (const double by : {0.0, 0.013, 0.029})
+        {
+            const int n = dim == 2 ? 32 : 12;
+            const SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, dim, {n, n, n}, {-1, -1, -1}, {1, 1, 1}, 0.1);
+            const Halo halo(mesh, MPI_COMM_WORLD);
+            NumericsControls controls;
+            controls.tolerance = 1e-11;
+            Fluid fluid(mesh, halo, singleFluid(1), controls, allPatches(mesh, BoundaryPatch::Velocity::Fixed));
+            fluid.start(restState(mesh), true);
+            // two side by side on a fixed one, a fourth on both; 2D: by their section
+            const double depth = dim == 2 ? 1 : 0.7;
+            const Vec3 size(0.5, 0.4, depth), places[] = {{0.02, -0.4, 0}, {-0.25, 0, 0}, {0.25, 0, 0}, {0.05, 0.4, 0}};
+            std::vector<Solid> solids(4);
+            for (int s = 0; s < 4; ++s)
+            {
+                solids[s].kind = s == 0 ? Solid::Kind::Fixed : Solid::Kind::Prescribed;
+                solids[s].shape = makeBox(Vec3::Zero(), s == 0 ? Vec3(1.4, 0.4, depth + 0.1) : size);
+                solids[s].pose.position = places[s] + Vec3(by, by + (s == 3 ? 0.002 : 0), 0);
+            }
+            CoverBuilder builder(mesh, fluid.graph(), halo);
+            const Cover& cover = builder.build(solids);
+            fluid.setGeometry(&cover, &solids, true);
+            makeSteps(fluid);
+            double displaced = 0, carried = 0;
+            for (int s = 0; s < 4; ++s)
+            {
+                const Vec3 force = fluid.solidLoads()[s].force;
+                displaced += cover.solidVolume[s];
+                carried += force[1];
+                std::printf("%dD, by %.3f, solid %d: force of the water %.6f %.6f, volume %.6f, speed %.1e\n", dim, by, s, force[0], force[1], mesh.thickness*(s == 0 ? cover.solidVolume[0] : size.prod()), largestSpeed(fluid));
+                if (s == 0) continue;
+                CHECK(std::abs(force[0]) < 1e-6*size.prod());
+                CHECK(force[1] == doctest::Approx(mesh.thickness*size.prod()).epsilon(0.02)); // what the cut leaves no fluid between them is theirs, too
+            }
+            CHECK(largestSpeed(fluid) < 1e-8);
+            CHECK(carried == doctest::Approx(mesh.thickness*displaced).epsilon(1e-8));
+        }
+}
+
 TEST_CASE("water that is left in a solid at an open boundary drives nothing")
 {
     usePetsc();
