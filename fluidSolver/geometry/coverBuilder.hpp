@@ -79,12 +79,13 @@ private:
     const KnownVolume& known(const Solid& solid);
     OwnCut cutAlone(const Solid& solid, const std::vector<Sample>& samples);
     template <int dim> void addAlone(OwnCut& own, const Solid& solid, int element) const;
-    template <class Visit> void forEachElementAlone(const Solid& solid, const std::vector<Sample>& samples, Visit visit);
+    template <class Visit, class Accept> void forEachElementAlone(const Solid& solid, const std::vector<Sample>& samples, Visit visit, Accept accept);
     template <int dim, class Visit> void visitCutAlone(const Solid& solid, int element, Visit visit) const;
     void findCovered(Cover& cover, const std::vector<Solid>& solids);
+    void findSharedNodes(const Cover& cover);
     void addCovered(Cover& cover, int solid, int element, double area, const double* normal, int nPoints, const double (*shape)[4]) const;
     template <int dim> void addAlone(Cover& cover, const std::vector<Solid>& solids, int solid, CoveredVolume& volume) const;
-    void subtractCut(Cover& cover, int solid, int element) const;
+    void subtractCut(Cover& cover, const std::vector<Solid>& solids, int element) const;
     void subtractSolidPart(const Cover& cover, CoveredVolume& volume) const;
     void addSolidPart(double sign, const double* first, const double* second, CoveredVolume& volume) const;
     bool isShared(const Cover& cover, int solid, int element) const;
@@ -150,6 +151,8 @@ private:
     std::vector<int> aloneFace_;        // nNodes, scratch
     std::vector<KnownVolume> knownVolumes_;
     std::vector<int> sharedCuts_;       // cut elements with nodes of several solids
+    std::vector<int> sharedNodes_;      // of elements with nodes of several solids
+    std::vector<char> isSharedNode_;    // nNodes
 };
 
 /// Elements that a solid at `distance` from the node may cut: all of a node inside. Of a node outside those where an edge of the solid may pass
@@ -163,8 +166,8 @@ void CoverBuilder::forEachElementOf(const Sample& sample, double distance, const
 }
 
 /// Owned and inner elements that the solid alone may cut; aloneDistance_ and aloneFace_ are its own meanwhile.
-template <class Visit>
-void CoverBuilder::forEachElementAlone(const Solid& solid, const std::vector<Sample>& samples, Visit visit)
+template <class Visit, class Accept>
+void CoverBuilder::forEachElementAlone(const Solid& solid, const std::vector<Sample>& samples, Visit visit, Accept accept)
 {
     for (const Sample& s : samples)
     {
@@ -173,10 +176,13 @@ void CoverBuilder::forEachElementAlone(const Solid& solid, const std::vector<Sam
     }
     ++mark_;
     for (const Sample& s : samples)
+    {
+        if (!accept(s.node)) continue;
         forEachElementOf(s, aloneDistance_[s.node], aloneFace_, [&](int e)
         {
             if ((mesh_.isOwnedElement[e] || e < mesh_.nInnerElements) && firstVisit(elementMark_, e)) visit(e);
         });
+    }
     for (const Sample& s : samples)
     {
         aloneDistance_[s.node] = farDistance;

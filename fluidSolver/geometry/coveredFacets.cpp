@@ -18,6 +18,7 @@ void CoverBuilder::findCovered(Cover& cover, const std::vector<Solid>& solids)
     sharedCuts_.clear();
     for (const CutElement& cut : cover.cuts)
         if ((mesh_.isOwnedElement[cut.element] || cut.element < mesh_.nInnerElements) && isShared(cover, cover.nearestSolid[nodesOf(cut.element)[0]], cut.element)) sharedCuts_.push_back(cut.element);
+    findSharedNodes(cover);
     for (std::size_t s = 0; s < solids.size(); ++s)
     {
         if (solids[s].kind == Solid::Kind::Fixed) continue;
@@ -28,14 +29,33 @@ void CoverBuilder::findCovered(Cover& cover, const std::vector<Solid>& solids)
         {
             if (!isShared(cover, solid, e)) return;
             mesh_.dim == 2 ? addAlone<2>(cover, solids, solid, volumeOf(e)) : addAlone<3>(cover, solids, solid, volumeOf(e));
-        });
-        for (int e : sharedCuts_) subtractCut(cover, solid, e);
+        }, [this](int node) { return isSharedNode_[node] != 0; });
     }
+    for (int e : sharedCuts_) subtractCut(cover, solids, e);
     for (const CoveredFacet& facet : cover.coveredFacets) volumeOf(facet.element);
     for (auto& [element, volume] : volumes)
     {
         subtractSolidPart(cover, volume);
         cover.coveredVolumes.push_back(volume);
+    }
+}
+
+/// Nodes of elements with nodes of several solids, among those that moving solids may cut: most of the elements around a body are its own.
+void CoverBuilder::findSharedNodes(const Cover& cover)
+{
+    isSharedNode_.resize(mesh_.nNodes);
+    for (int i : sharedNodes_) isSharedNode_[i] = 0;
+    sharedNodes_.clear();
+    for (int e : touchedElements_)
+    {
+        if (!isShared(cover, cover.nearestSolid[nodesOf(e)[0]], e)) continue;
+        for (int a = 0; a <= mesh_.dim; ++a)
+        {
+            const int i = nodesOf(e)[a];
+            if (isSharedNode_[i]) continue;
+            isSharedNode_[i] = 1;
+            sharedNodes_.push_back(i);
+        }
     }
 }
 
@@ -71,12 +91,13 @@ void CoverBuilder::addAlone(Cover& cover, const std::vector<Solid>& solids, int 
     });
 }
 
-/// What the cover has of the solid's surface.
-void CoverBuilder::subtractCut(Cover& cover, int solid, int element) const
+/// What the cover has of the moving solids' surfaces.
+void CoverBuilder::subtractCut(Cover& cover, const std::vector<Solid>& solids, int element) const
 {
     const CutElement& cut = cover.cuts[cover.cutIndex[element]];
     for (int f = cut.facetStart; f < cut.facetEnd; ++f)
-        if (const CutFacet& facet = cover.facets[f]; facet.solid == solid) addCovered(cover, solid, element, -facet.area, facet.normal, facet.nPoints, facet.shape);
+        if (const CutFacet& facet = cover.facets[f]; solids[facet.solid].kind != Solid::Kind::Fixed)
+            addCovered(cover, facet.solid, element, -facet.area, facet.normal, facet.nPoints, facet.shape);
 }
 
 /// Of an element nearest to one solid alone, into which another reaches, it is what the one cuts out, which is not in the sum.

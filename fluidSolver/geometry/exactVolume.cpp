@@ -99,7 +99,7 @@ CoverBuilder::OwnCut CoverBuilder::cutAlone(const Solid& solid, const std::vecto
     {
         if (!mesh_.isOwnedElement[e]) return;
         mesh_.dim == 2 ? addAlone<2>(own, solid, e) : addAlone<3>(own, solid, e);
-    });
+    }, [](int) { return true; });
     return own;
 }
 
