@@ -84,9 +84,18 @@ void RunOutput::failForeign() const
         " (from the same time of processor0 or of the whole case), or remove all flotsamState.h5 of this time to start anew from its fields");
 }
 
+/// Fields alone would begin another run, with the bodies where they once started.
+void RunOutput::checkUnfinished() const
+{
+    if (!halo_.any(Foam::isFile(runTime_.timePath()/"flotsamState.h5.tmp"))) return;
+    throw std::runtime_error("restart: the state of time " + runTime_.timeName() + " was not written to its end (flotsamState.h5.tmp; a full disk?). Remove the folder "
+        + runTime_.timeName() + " to continue from the time before, or that file to start anew from the fields");
+}
+
 void RunOutput::checkStart() const
 {
     const StateFiles::Found found = files_.find();
+    if (found == StateFiles::Found::Nothing) checkUnfinished();
     if (found == StateFiles::Found::Foreign) failForeign();
     if (found == StateFiles::Found::Own) checkMembers(files_.readOwn());
     if (found == StateFiles::Found::Shared) checkMembers(files_.readShared());
@@ -99,6 +108,7 @@ bool RunOutput::readState(CoupledStep& step, const FoamFields& fields)
     switch (files_.find())
     {
         case StateFiles::Found::Nothing:
+            checkUnfinished();
             if (halo_.any(Foam::isFile(runTime_.timePath()/"pointU"))) warnAnew();
             return false;
         case StateFiles::Found::Foreign: failForeign();

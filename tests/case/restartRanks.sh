@@ -73,6 +73,9 @@ rm -r left/$end/uniform
 cp left/$end/flotsamState.h5 left/processor0/$end
 (cd left && mpirun -np 2 flotsamFoam -parallel) > foreign.log 2>&1 && fail "a state of other processes is taken"
 grep -q 'written by other processes' foreign.log || fail "a state of other processes: no word"
+mv left/processor0/$end/flotsamState.h5 left/processor0/$end/flotsamState.h5.tmp
+(cd left && mpirun -np 2 flotsamFoam -parallel) > unfinished.log 2>&1 && fail "a run starts anew beside a state that was not written to its end"
+grep -q 'was not written to its end' unfinished.log || fail "a state that was not written to its end: no word"
 
 python - << 'PY' || exit
 import sys
