@@ -140,6 +140,7 @@ private:
     struct LayerElement { int element; double share; }; // share of the solids' surface there that they cover of each other
     std::vector<LayerElement> layers_;
     std::vector<int> coveredByElement_;         // positions in Cover::coveredFacets, by element and solid
+    std::vector<std::vector<int>> facetsOf_, volumesOf_; // per solid: those of the cover's covered ones that it has a part in
     std::vector<char> isLayerNode_;             // nNodes, empty: no layers on any rank; nodes of layers in solids and pockets
     std::vector<int> layerSolid_;               // nNodes: whose share of the layers' content is 1 there
     std::vector<int> placeInSolid_;             // nNodes: in the coupling being assembled, else -1

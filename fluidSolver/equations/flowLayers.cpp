@@ -225,27 +225,31 @@ void FlowEquation::assembleLayers()
 template<int D>
 void FlowEquation::coupleLayers()
 {
-    std::vector<std::vector<int>> facets(system_.solids.size()), volumes(system_.solids.size()); // many solids: not all facets for each
+    for (auto* lists : {&facetsOf_, &volumesOf_})
+    {
+        lists->resize(system_.solids.size());
+        for (std::vector<int>& list : *lists) list.clear();
+    }
     const auto addTo = [&](std::vector<std::vector<int>>& lists, int s, int k) { if (s >= 0 && (lists[s].empty() || lists[s].back() != k)) lists[s].push_back(k); };
     for (std::size_t k = 0; k < step_.cover->coveredFacets.size(); ++k)
     {
         const CoveredFacet& facet = step_.cover->coveredFacets[k];
         if (!isOfLayer<D>(facet.element)) continue;
-        addTo(facets, facet.solid, int(k));
-        for (int a = 0; a <= D; ++a) addTo(facets, layerSolid_[mesh_.elements[std::size_t(facet.element)*(D + 1) + a]], int(k));
+        addTo(facetsOf_, facet.solid, int(k));
+        for (int a = 0; a <= D; ++a) addTo(facetsOf_, layerSolid_[mesh_.elements[std::size_t(facet.element)*(D + 1) + a]], int(k));
     }
     for (std::size_t k = 0; k < step_.cover->coveredVolumes.size(); ++k)
     {
         const int e = step_.cover->coveredVolumes[k].element;
         if (!isOfLayer<D>(e)) continue;
-        for (int a = 0; a <= D; ++a) addTo(volumes, layerSolid_[mesh_.elements[std::size_t(e)*(D + 1) + a]], int(k));
+        for (int a = 0; a <= D; ++a) addTo(volumesOf_, layerSolid_[mesh_.elements[std::size_t(e)*(D + 1) + a]], int(k));
     }
     for (std::size_t s = 0; s < system_.solids.size(); ++s)
     {
         SolidCoupling& coupling = system_.solids[s];
         for (std::size_t k = 0; k < coupling.node.size(); ++k) placeInSolid_[coupling.node[k]] = int(k);
-        for (int k : facets[s]) addCoveredFacet<D>(int(s), step_.cover->coveredFacets[k], coupling);
-        for (int k : volumes[s]) addCoveredVolume<D>(int(s), step_.cover->coveredVolumes[k], coupling);
+        for (int k : facetsOf_[s]) addCoveredFacet<D>(int(s), step_.cover->coveredFacets[k], coupling);
+        for (int k : volumesOf_[s]) addCoveredVolume<D>(int(s), step_.cover->coveredVolumes[k], coupling);
         for (int i : coupling.node) placeInSolid_[i] = -1;
     }
 }

@@ -17,20 +17,6 @@ constexpr double leastAlpha = 1e-4;     // that the profile keeps
 constexpr double ofMeans = 2;           // widths by which means over dual cells reach farther out than the profile
 constexpr double sameDensity = 1e-10; // relative spread of nodal densities that counts as constant
 
-/// Distance of a node from its plane [m], of which only its reach around its own point counts as the surface.
-template<int dim>
-double distanceFromSurface(const SimplexMesh& mesh, const InterfacePlanes& planes, int i)
-{
-    const double d = planes.distance(i);
-    double square = 0;
-    for (int k = 0; k < dim; ++k)
-    {
-        const double t = mesh.x[std::size_t(i)*dim + k] - d*planes.normal(i)[k] - planes.point(i)[k];
-        square += t*t;
-    }
-    return std::hypot(d, std::max(0.0, std::sqrt(square) - planes.reach(i)));
-}
-
 /// g.x of the foot of a point on the plane of node i. The node's own foot stays within the plane's reach, beyond
 /// which an inclined plane says nothing about the surface's height.
 template<int dim>
@@ -119,23 +105,6 @@ double meanOf(const SimplexMesh& mesh, const Cover* cover, int e, const std::vec
 }
 
 template<int dim>
-void surfaceDensityT(const SimplexMesh& mesh, const FluidProperties& fluid, const NumericsControls& controls, const InterfacePlanes& planes,
-    const std::vector<double>& width, const std::vector<double>& alpha, std::vector<double>& result)
-{
-    result.resize(mesh.nNodes);
-    for (int i = 0; i < mesh.nNodes; ++i)
-    {
-        double most = 1;    // share of the other fluid
-        if (planes.has(i))
-        {
-            const double h = width[i]/controls.interfaceWidth;
-            most = 1/(1 + std::exp((distanceFromSurface<dim>(mesh, planes, i) - h)/width[i]));
-        }
-        result[i] = density(fluid, controls, alpha[i] < 0.5 ? std::min(alpha[i], most) : std::max(alpha[i], 1 - most));
-    }
-}
-
-template<int dim>
 void gravityForceT(const SimplexMesh& mesh, const std::array<double, 3>& gravity, const std::vector<double>& rho,
     const InterfacePlanes* planes, const std::vector<double>& ofSurface, const Cover* cover, std::vector<double>& result)
 {
@@ -176,8 +145,17 @@ void gravityForceT(const SimplexMesh& mesh, const std::array<double, 3>& gravity
 void surfaceDensity(const SimplexMesh& mesh, const FluidProperties& fluid, const NumericsControls& controls, const InterfacePlanes& planes,
     const std::vector<double>& width, const std::vector<double>& alpha, std::vector<double>& result)
 {
-    if (mesh.dim == 2) surfaceDensityT<2>(mesh, fluid, controls, planes, width, alpha, result);
-    else surfaceDensityT<3>(mesh, fluid, controls, planes, width, alpha, result);
+    result.resize(mesh.nNodes);
+    for (int i = 0; i < mesh.nNodes; ++i)
+    {
+        double most = 1;    // share of the other fluid
+        if (planes.has(i))
+        {
+            const double h = width[i]/controls.interfaceWidth;
+            most = 1/(1 + std::exp((planes.distanceFromSurface(mesh, i) - h)/width[i]));
+        }
+        result[i] = density(fluid, controls, alpha[i] < 0.5 ? std::min(alpha[i], most) : std::max(alpha[i], 1 - most));
+    }
 }
 
 InterfacePlanes::Extent planesExtent(const NumericsControls& controls, const std::vector<double>& width)

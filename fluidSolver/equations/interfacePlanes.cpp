@@ -264,12 +264,19 @@ void InterfacePlanes::exchange(const SimplexMesh& mesh, const Halo& halo)
     }
 }
 
-double InterfacePlanes::distanceFromPlane(const SimplexMesh& mesh, int node) const
+double InterfacePlanes::alongNormal(const SimplexMesh& mesh, int node) const
 {
     double result = 0;
     for (int d = 0; d < dim_; ++d)
         result += normal(node)[d]*(mesh.x[static_cast<std::size_t>(node)*dim_ + d] - point(node)[d]);
     return result;
+}
+
+double InterfacePlanes::distanceFromSurface(const SimplexMesh& mesh, int node) const
+{
+    const double *x = &mesh.x[static_cast<std::size_t>(node)*dim_], along = alongNormal(mesh, node);
+    const double square = dim_ == 2 ? squaredDistance<2>(x, point(node)) : squaredDistance<3>(x, point(node));
+    return std::hypot(along, std::max(0., std::sqrt(std::max(0., square - along*along)) - reach(node)));
 }
 
 /// Of the nodes that hand their planes on next those near them; false where no rank has any. Thin elements have more rings within the profile, whose width is
@@ -278,7 +285,7 @@ bool InterfacePlanes::keepNear(const SimplexMesh& mesh, const Halo& halo, const 
 {
     if (!extent.width)
         return false;
-    const auto isFar = [&](int i) { return std::abs(distanceFromPlane(mesh, i)) > extent.widths*(*extent.width)[i]; };
+    const auto isFar = [&](int i) { return distanceFromSurface(mesh, i) > extent.widths*(*extent.width)[i]; };
     changed_.erase(std::remove_if(changed_.begin(), changed_.end(), isFar), changed_.end());
     return halo.any(!changed_.empty());
 }
@@ -304,7 +311,7 @@ void InterfacePlanes::propagate(const SimplexMesh& mesh, const NodeGraph& graph,
         exchange(mesh, halo);
 
     for (int i : nodes_)
-        distance_[i] = distanceFromPlane(mesh, i);
+        distance_[i] = alongNormal(mesh, i);
 }
 
 } // namespace flotsam

@@ -22,9 +22,10 @@ public:
     /// How far beside the plane's own point it speaks for the surface: length of the cut element, in stretched ones its longest edge over sqrt(dim) [m].
     double reach(int node) const { return at(node)[2*dim_]; }
     double distance(int node) const { return distance_[node]; }          ///< normal.(x - point): positive in the liquid [m]
+    double distanceFromSurface(const SimplexMesh& mesh, int node) const;  ///< from the part of the plane within its reach [m], positive
     const std::vector<int>& nodes() const { return nodes_; }             ///< local nodes that have a plane, no order
 
-    /// How far planes are handed on: over so many rings of nodes, and from there over nodes within so many profile widths (nNodes [m]) of their plane.
+    /// How far planes are handed on: over so many rings of nodes, and from there over nodes within so many profile widths (nNodes [m]) of the surface.
     struct Extent
     {
         int rings;
@@ -48,7 +49,7 @@ private:
     template<int dim> void offer(const SimplexMesh& mesh, int node, const double* plane);
     template<int dim> void sweep(const SimplexMesh& mesh, const NodeGraph& graph);
     void commit();
-    double distanceFromPlane(const SimplexMesh& mesh, int node) const;
+    double alongNormal(const SimplexMesh& mesh, int node) const;
     bool keepNear(const SimplexMesh& mesh, const Halo& halo, const Extent& extent);
     void exchange(const SimplexMesh& mesh, const Halo& halo);
 

@@ -66,6 +66,16 @@ inline std::vector<BoundaryPatch> allPatches(const SimplexMesh& mesh, BoundaryPa
     return patches;
 }
 
+/// One fluid without gravity. rho [kg/m^3], mu [Pa s].
+inline FluidProperties oneFluid(double rho, double mu)
+{
+    FluidProperties properties;
+    properties.isTwoPhase = false;
+    properties.rhoLiquid = rho;
+    properties.muLiquid = mu;
+    return properties;
+}
+
 inline FlowState restState(const SimplexMesh& mesh)
 {
     FlowState s;

@@ -16,15 +16,6 @@ namespace
 
 constexpr double rho = 1000;    // [kg/m^3]
 
-FluidProperties water()
-{
-    FluidProperties properties;
-    properties.isTwoPhase = false;
-    properties.rhoLiquid = rho;
-    properties.muLiquid = 1e-3;
-    return properties;
-}
-
 /// Slip patches, those across x of the given kind.
 std::vector<BoundaryPatch> channelPatches(const SimplexMesh& mesh, BoundaryPatch::Velocity ends)
 {
@@ -45,7 +36,7 @@ SimplexMesh shearedBox(int dim)
 /// Velocity block of the system of a flow that is `velocity` everywhere.
 std::vector<double> velocityBlock(const SimplexMesh& mesh, const Halo& halo, BoundaryPatch::Velocity ends, const Vec3& velocity)
 {
-    Fluid fluid(mesh, halo, water(), NumericsControls(), channelPatches(mesh, ends));
+    Fluid fluid(mesh, halo, oneFluid(rho, 1e-3), NumericsControls(), channelPatches(mesh, ends));
     FlowState state = restState(mesh);
     for (int i = 0; i < mesh.nNodes; ++i)
         for (int d = 0; d < mesh.dim; ++d) state.u[std::size_t(i)*mesh.dim + d] = velocity[d];

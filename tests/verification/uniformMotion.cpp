@@ -73,9 +73,6 @@ struct Duct
     Duct(int dim, double velocity, BoundaryPatch::Velocity at0, BoundaryPatch::Velocity at2, double p0)
     :   mesh(makeBoxMesh(MPI_COMM_WORLD, dim, {16, 8, dim == 3 ? 4 : 1}, {0, 0, 0}, {ductLength, 1, 0.5}, 0.15)), halo(mesh, MPI_COMM_WORLD)
     {
-        properties.isTwoPhase = false;
-        properties.rhoLiquid = 1000;
-        properties.muLiquid = 1e-3;
         controls.tolerance = 1e-10;
         const BoundaryPatch::Velocity ends[2] = {at0, at2};
         for (int p = 0; p < 2; ++p)
@@ -122,7 +119,7 @@ struct Duct
 
     SimplexMesh mesh;
     Halo halo;
-    FluidProperties properties;
+    FluidProperties properties = oneFluid(1000, 1e-3);
     NumericsControls controls;
     std::vector<BoundaryPatch> patches;
     std::unique_ptr<Fluid> fluid;
