@@ -57,6 +57,7 @@ SceneCounts countScene(const BodiesInput& input)
     counts.bodies = int(input.bodies.size());
     for (const BodyDefinition& b : input.bodies)
     {
+        counts.bodiesToCome += b.entersAtRelease;
         counts.demSpheres += long(b.spheres.size());
         if (counts.thinnestBody == 0 || b.thinnest < counts.thinnestBody) counts.thinnestBody = b.thinnest;
     }
@@ -69,6 +70,14 @@ Scene makeScene(const BodiesInput& input, const Vec3& gravity)
     std::vector<SceneStructure> structures;
     for (const StructureDefinition& s : input.structures) structures.push_back({s.solid, s.wall, s.motion});
     return Scene(structures, input.bodies, gravity);
+}
+
+void checkEntries(const BodiesInput& input, const FluidProperties& fluid)
+{
+    for (const BodyDefinition& body : input.bodies)
+        if (body.entersAtRelease && !fluid.isTwoPhase)
+            throw std::runtime_error("constant/bodies: body " + body.name + " is absent before its release (beforeRelease absent), but there is no gas through which"
+                " it could come in: the case has one fluid. Use 'beforeRelease held', or two fluids");
 }
 
 DemSetup makeDemSetup(const BodiesInput& input, double timeStep)
@@ -164,6 +173,7 @@ void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     const auto& g = controls.fluid.gravity;
     const Vec3 gravity(g[0], g[1], g[2]);
     const BodiesInput bodies = readBodies(mesh, adapter.mesh, halo, gravity);
+    checkEntries(bodies, controls.fluid);
     printCaseCheck(controls, adapter, halo, boundary, countScene(bodies));
     PhaseTimers timers;
     if (task == Task::Check)

@@ -38,6 +38,7 @@ struct BodyDefinition
     Pose pose;                              ///< at the start
     Motion motion;
     double releaseTime = 0;                 ///< held in place until then [s]
+    bool entersAtRelease = false;           ///< not there until then, instead of held
     bool isPlanar = false;                  ///< 2D scene: moves in the mesh plane only, see planeAxis
     int planeAxis = 2;                      ///< normal of that plane
     double thinnest = 0;                    ///< smallest extent [m] (2D: in the plane), of a union that of its thinnest part

@@ -61,8 +61,12 @@ BodyCoupling::BodyCoupling(const DemSetup& setup, const CouplingControls& contro
     wallLoads_.resize(setup.walls.size());
     contactCounts_.assign(n, 0);
     wallContactCounts_.assign(setup.walls.size(), 0);
-    isHeld_.assign(n, 0);
-    isGone_.assign(n, 0);
+    isJustReleased_.assign(n, 0);
+    for (const BodyDefinition& body : setup.bodies)
+    {
+        isHeld_.push_back(body.entersAtRelease);
+        presence_.push_back(body.entersAtRelease ? Presence::Awaited : Presence::There);
+    }
     states_.resize(n);
     result_.resize(n);
     guarded([&]
@@ -171,7 +175,7 @@ void BodyCoupling::begin(double time, double dt)
     for (int b = 0; b < nBodies(); ++b)
         springSpeed_ = std::max(springSpeed_, std::sqrt(overlapAtStart_*contact_[b].force.norm()/setup_.bodies[b].mass));
     std::vector<char> held(isHeld_);
-    for (int b = 0; b < nBodies(); ++b) held[b] = time < setup_.bodies[b].releaseTime - 1e-9 || isGone_[b];
+    for (int b = 0; b < nBodies(); ++b) held[b] = !isDue(b, time) || !isThere(b);
     isAtStart_ = true;
     hold(held);
     guarded([&] { saved_ = engine_->save(); });
@@ -189,7 +193,11 @@ void BodyCoupling::hold(const std::vector<char>& isHeld)
     });
     shareResults();
     for (int b = 0; b < nBodies(); ++b)
-        if (isHeld[b] != isHeld_[b]) smooth_->reset(b, states_[b] = result_[b]);
+    {
+        if (isHeld[b] == isHeld_[b]) continue;
+        smooth_->reset(b, states_[b] = result_[b]);
+        isJustReleased_[b] = !isHeld[b];
+    }
     isHeld_ = isHeld;
 }
 
@@ -199,8 +207,9 @@ void BodyCoupling::takeOut(const std::vector<char>& bodies)
     std::vector<Load> guess = contactGuess();
     for (int b = 0; b < nBodies(); ++b)
     {
-        if (!bodies[b] || isGone_[b]) continue;
-        isGone_[b] = held[b] = 1;
+        if (!bodies[b] || !isThere(b)) continue;
+        presence_[b] = Presence::Left;
+        held[b] = 1;
         contactCounts_[b] = 0;
         guess[b] = lastLoads_[b] = newContact_[b] = contact_[b] = Load();
         inertia_.drop(b);
@@ -208,7 +217,26 @@ void BodyCoupling::takeOut(const std::vector<char>& bodies)
     iteration_.setGuess(guess);
     smoothing_ = difference(guess, contact_);
     hold(held);
-    guarded([&] { engine_->setGone(isGone_); });
+    guarded([&] { engine_->setGone(areAway()); });
+}
+
+void BodyCoupling::letIn(int body)
+{
+    presence_[body] = Presence::There;
+    guarded([&]
+    {
+        engine_->setGone(areAway());
+        result_ = engine_->states();
+    });
+    shareResults();
+    smooth_->reset(body, states_[body] = result_[body]);
+}
+
+std::vector<char> BodyCoupling::areAway() const
+{
+    std::vector<char> flags;
+    for (const Presence p : presence_) flags.push_back(p != Presence::There);
+    return flags;
 }
 
 /// The body after the step if its smooth motion's last acceleration went on. Its pose is what the fluid is cut with.
@@ -243,7 +271,7 @@ std::string BodyCoupling::brokenContact(double fluidSpeed) const
     const bool hasConverged = mismatch() <= controls_.tolerance;
     const std::string thrown = hasConverged ? "" : check_.thrownBody(states_, result_, newContact_, fluidSpeed, slack);
     if (!thrown.empty()) return "contact throws body '" + thrown + "' faster than anything there is";
-    return check_.passage(states_, result_, newContact_, isGone_);
+    return check_.passage(states_, result_, newContact_, areAway());
 }
 
 bool BodyCoupling::correct(const std::vector<Load>& loads)
@@ -275,6 +303,7 @@ void BodyCoupling::accept(const std::vector<Motion>& inFluid)
         else guess[b] = isLight[b] ? smooth_->drive()[b] : mean(newContact_[b], contact_[b]);
     }
     smoothing_ = difference(guess, newContact_);
+    isJustReleased_.assign(isJustReleased_.size(), 0);
     states_ = result_;
     contact_ = newContact_;
     smooth_->accept(inFluid, isLight);
@@ -304,7 +333,8 @@ std::vector<double> BodyCoupling::save() const
     for (const InertiaFactor& f : inertia_.factors()) data.insert(data.end(), {f.mass, f.turn});
     const std::vector<double> smooth = smooth_->save();
     data.insert(data.end(), smooth.begin(), smooth.end());
-    for (const std::vector<char>* flags : {&isHeld_, &isGone_}) data.insert(data.end(), flags->begin(), flags->end());
+    data.insert(data.end(), isHeld_.begin(), isHeld_.end());
+    for (const Presence p : presence_) data.push_back(double(p));
     data.push_back(largestOverlap_);
     return data;
 }
@@ -324,11 +354,8 @@ void BodyCoupling::restore(const std::vector<double>& data)
     inertia_.setFactors(factors);
     const double* smooth = at;
     at += SmoothMotion::perBody*isHeld_.size();
-    for (std::vector<char>* flags : {&isHeld_, &isGone_})
-    {
-        flags->assign(at, at + flags->size());
-        at += flags->size();
-    }
+    for (char& flag : isHeld_) flag = char(*at++);
+    for (Presence& p : presence_) p = Presence(char(*at++));
     largestOverlap_ = *at;
     guarded([&]
     {

@@ -10,7 +10,8 @@
 /// Without contact before and after the step the first correct() returns true: exactly one solve a step. A prediction by DEM
 /// sub-steps would cost one more DEM run in every step.
 /// The repeats: contactIteration.hpp; velocities of touched bodies: smoothMotion.hpp; light bodies: addedInertia.hpp; steps that must not be accepted: motionCheck.hpp.
-/// Bodies that have left the mesh are taken out: they rest where they left, and touch nothing. Rank 0 owns the engine; every rank holds the same states.
+/// Bodies that have left the mesh are taken out: they rest where they left, and touch nothing; so do those to come (BodyDefinition::entersAtRelease)
+/// until they are let in. Rank 0 owns the engine; every rank holds the same states.
 #pragma once
 
 #include "demCoupling/coupling/addedInertia.hpp"
@@ -26,6 +27,9 @@
 
 namespace flotsam
 {
+
+/// Whether a body takes part. Numbers: in states to restart from.
+enum class Presence : char { There = 0, Left = 1, Awaited = 2 };
 
 class BodyCoupling
 {
@@ -58,11 +62,17 @@ public:
     const std::vector<int>& contactCounts() const { return contactCounts_; }
     const std::vector<int>& wallContactCounts() const { return wallContactCounts_; } ///< bodies that touch each wall
     bool isHeld(int body) const { return isHeld_[body]; }
+    /// Of the step's mean fluid load and weight, lastLoads() the rest; share: Fluid::newLoadShare(). In its first step a body that was let go has only the new.
+    double newLoadShare(int body, double share) const { return isJustReleased_[body] ? 1 : share; }
 
     /// Between steps: these are taken out, for good. Collective; every rank gives the same.
     void takeOut(const std::vector<char>& bodies);
-    bool isGone(int body) const { return isGone_[body]; }
-    int goneCount() const { return int(std::count(isGone_.begin(), isGone_.end(), 1)); }
+    /// Between steps: an awaited body is there from now on, held until a step begins at its release time or later. Collective.
+    void letIn(int body);
+    Presence presence(int body) const { return presence_[body]; }
+    bool isThere(int body) const { return presence_[body] == Presence::There; }
+    int count(Presence p) const { return int(std::count(presence_.begin(), presence_.end(), p)); }
+    bool isDue(int body, double time) const { return time >= setup_.bodies[body].releaseTime - 1e-9; }
     /// Beyond the mesh's bounding box by its diagonal: wherever it flies, it has left.
     bool isFarOff(int body) const;
 
@@ -82,6 +92,7 @@ private:
     void shareResults();
     BodyState drifted(int body) const;
     void hold(const std::vector<char>& isHeld);
+    std::vector<char> areAway() const;
     void guarded(const std::function<void()>& work) const;
 
     DemSetup setup_;
@@ -96,7 +107,8 @@ private:
     std::vector<Load> smoothing_, guessAtStart_; // smoothing_: of the guess, what is not contact
     std::vector<InertiaFactor> factorsAtStart_;
     std::vector<int> contactCounts_, wallContactCounts_;
-    std::vector<char> isHeld_, isGone_;
+    std::vector<char> isHeld_, isJustReleased_;
+    std::vector<Presence> presence_;
     ContactIteration iteration_;
     AddedInertia inertia_;
     MotionCheck check_;

@@ -37,6 +37,8 @@ CoupledStep::CoupledStep(const SimplexMesh& mesh, const Halo& halo, const FluidP
         if (solid.kind == Solid::Kind::Free) builder_->exactVolume(solid);
     if (!dem) return;
     coupling_ = std::make_unique<BodyCoupling>(*dem, couplingControls(fluid, controls), halo.comm());
+    entry_ = std::make_unique<EntryCheck>(mesh, halo, dem->bodies);
+    isWaiting_.assign(dem->bodies.size(), 0);
     exit_ = std::make_unique<MeshExit>(mesh, halo, dem->bodies, Vec3(fluid.gravity[0], fluid.gravity[1], fluid.gravity[2]));
 }
 
@@ -75,6 +77,7 @@ StepResult CoupledStep::step(double dt)
     if (coupling_)
     {
         PhaseTimer t(timers_, Phase::Dem);
+        letIn(time);
         coupling_->begin(time, dt);
     }
     if (scene_.moves()) fluid_.keepGeometry();
@@ -113,8 +116,24 @@ StepResult CoupledStep::step(double dt)
         takeOutLeavers();
     }
     wet_ = fluid_.wetFractions();
+    result.waiting.swap(waiting_);
     result.isAccepted = true;
     return result;
+}
+
+/// Bodies to come whose release is due, in their order: what comes in first is in the way of the next.
+void CoupledStep::letIn(double time)
+{
+    for (int b = 0; b < coupling_->nBodies(); ++b)
+    {
+        if (coupling_->presence(b) != Presence::Awaited || !coupling_->isDue(b, time)) continue;
+        std::vector<char> isThere;
+        for (int other = 0; other < coupling_->nBodies(); ++other) isThere.push_back(coupling_->isThere(other));
+        const std::string obstacle = entry_->obstacle(b, fluid_.state().alpha, coupling_->states(), isThere);
+        if (obstacle.empty()) coupling_->letIn(b);
+        else if (!isWaiting_[b]) waiting_.push_back("body " + coupling_->definition(b).name + " is to come in, but there is " + obstacle + " at its place: it waits");
+        isWaiting_[b] = !obstacle.empty();
+    }
 }
 
 /// Bodies that have left the mesh: what cuts no element may have.
@@ -169,7 +188,7 @@ void CoupledStep::solveWithContact(StepResult& result)
         if (isNewLoad && result.solves == 2) contactChange_ = report.initial;
         contactRepeats_ = result.solves - 1;
         PhaseTimer t(timers_, Phase::Dem);
-        isNewLoad = !coupling_->correct(scene_.bodyLoads(loads_, coupling_->lastLoads(), fluid_.newLoadShare()));
+        isNewLoad = !coupling_->correct(scene_.bodyLoads(loads_, *coupling_, fluid_.newLoadShare()));
         if (!isNewLoad && enough == 0) break;
     }
     result.contactMismatch = coupling_->mismatch();
@@ -234,7 +253,8 @@ std::vector<BodyRecord> CoupledStep::records() const
         r.contactForce = coupling_->contactLoads()[body].force;
         r.contactMoment = coupling_->contactLoads()[body].moment;
         r.contacts = coupling_->contactCounts()[body];
-        r.hasLeft = coupling_->isGone(body);
+        r.hasLeft = coupling_->presence(body) == Presence::Left;
+        r.isAwaited = coupling_->presence(body) == Presence::Awaited;
     }
     return records;
 }

@@ -3,6 +3,7 @@
 /// tests drive the same object.
 #pragma once
 
+#include "demCoupling/coupling/entryCheck.hpp"
 #include "demCoupling/coupling/meshExit.hpp"
 #include "demCoupling/coupling/scene.hpp"
 #include "equations/fluid.hpp"
@@ -25,6 +26,7 @@ struct StepResult
     int solves = 0;             ///< 1 + contact repeats
     bool hasConverged = true;   ///< linear solver, all solves
     double contactMismatch = 0;
+    std::vector<std::string> waiting; ///< bodies that begin to wait for their place, and what is in the way
     double unbalancedVolume = 0; ///< that gas of basins without a prescribed pressure gave way to or filled [m^dim]
 };
 
@@ -76,6 +78,7 @@ private:
     SolveReport solveFlow(StepResult& result, double enough);
     void solveWithContact(StepResult& result);
     void forgetContact();
+    void letIn(double time);
     void takeOutLeavers();
 
     const SimplexMesh& mesh_;
@@ -86,7 +89,10 @@ private:
     Scene scene_;
     std::unique_ptr<CoverBuilder> builder_; // null without solids
     std::unique_ptr<BodyCoupling> coupling_;
+    std::unique_ptr<EntryCheck> entry_;
     std::unique_ptr<MeshExit> exit_;
+    std::vector<char> isWaiting_;           // per body
+    std::vector<std::string> waiting_;      // of the step to come
     std::vector<Fluid::SolidLoad> loads_;   // fluid loads of the last solve
     std::vector<double> wet_;
     double contactChange_ = 0;  // residual over the right-hand side that the first new contact load of the last step left; 0: there was none

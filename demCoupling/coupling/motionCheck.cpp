@@ -136,7 +136,7 @@ bool MotionCheck::entersBody(const Path& path, std::size_t other, const BodyStat
 }
 
 std::string MotionCheck::passage(const std::vector<BodyState>& before, const std::vector<BodyState>& after, const std::vector<Load>& contact,
-    const std::vector<char>& isGone) const
+    const std::vector<char>& isAway) const
 {
     for (std::size_t b = 0; b < bodies_.size(); ++b)
     {
@@ -145,7 +145,7 @@ std::string MotionCheck::passage(const std::vector<BodyState>& before, const std
         for (std::size_t w = 0; w < walls_.size(); ++w)
             if (passes(way, w)) return "body '" + bodies_[b].name + "' passes through '" + walls_[w].name + "'";
         for (std::size_t other = 0; other < bodies_.size(); ++other)
-            if (other != b && !isGone[other] && entersBody(way, other, before[other], after[other]))
+            if (other != b && !isAway[other] && entersBody(way, other, before[other], after[other]))
                 return "body '" + bodies_[b].name + "' passes into body '" + bodies_[other].name + "'";
     }
     return "";

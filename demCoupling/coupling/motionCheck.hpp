@@ -22,9 +22,9 @@ public:
 
     /// What got through what: a contact sphere whose centre is on the other side of a wall or inside another body, that is with an overlap
     /// beyond its radius. Its spring then pushes the wrong way. Bodies without contact load are not looked at. Empty: nothing.
-    /// isGone: bodies that nothing touches.
+    /// isAway: bodies that nothing touches.
     std::string passage(const std::vector<BodyState>& before, const std::vector<BodyState>& after, const std::vector<Load>& contact,
-        const std::vector<char>& isGone) const;
+        const std::vector<char>& isAway) const;
 
 private:
     double surfaceSpeed(std::size_t body, const BodyState& state) const;

@@ -38,7 +38,7 @@ Scene::Scene(std::vector<SceneStructure> structures, const std::vector<BodyDefin
 namespace
 {
 
-constexpr double farAway = 1e9; // [m]; of bodies that have left: just outside the mesh they were the nearest solid to facets of others that leave
+constexpr double farAway = 1e9; // [m]; of bodies that have left or are to come: just outside the mesh they were the nearest solid to facets of others that leave
 
 } // namespace
 
@@ -54,7 +54,7 @@ void Scene::place(double time, const BodyCoupling* coupling)
         solid.kind = coupling->isHeld(int(b)) ? Solid::Kind::Prescribed : Solid::Kind::Free;
         solid.pose = state.pose;
         solid.motion = coupling->isHeld(int(b)) ? Motion() : state.motion;
-        if (coupling->isGone(int(b))) solid.pose.position.setConstant(farAway);
+        if (!coupling->isThere(int(b))) solid.pose.position.setConstant(farAway);
     }
 }
 
@@ -72,9 +72,10 @@ std::vector<FreeBody> Scene::freeBodies(const BodyCoupling& coupling, double new
         body.velocity = coupling.smoothStates()[b].motion.velocity;
         body.angularMomentum = coupling.smoothStates()[b].angularMomentum;
         const Load &last = coupling.lastLoads()[b], &contact = coupling.contactGuess()[b];
-        body.newLoadShare = newLoadShare;
-        body.force = newLoadShare*definition.mass*gravity_ + (1 - newLoadShare)*last.force + contact.force;
-        body.moment = (1 - newLoadShare)*last.moment + contact.moment;
+        const double share = coupling.newLoadShare(int(b), newLoadShare);
+        body.newLoadShare = share;
+        body.force = share*definition.mass*gravity_ + (1 - share)*last.force + contact.force;
+        body.moment = (1 - share)*last.moment + contact.moment;
         result.push_back(body);
     }
     return result;

@@ -40,14 +40,16 @@ public:
 
     /// Mean over the step of fluid force and moment of every body plus its weight: the constant load of the DEM sub-steps. newLoadShare: see Fluid.
     template<class FluidLoad>
-    std::vector<Load> bodyLoads(const std::vector<FluidLoad>& fluid, const std::vector<Load>& last, double newLoadShare) const
+    std::vector<Load> bodyLoads(const std::vector<FluidLoad>& fluid, const BodyCoupling& coupling, double newLoadShare) const
     {
         std::vector<Load> loads(bodies_.size());
         for (std::size_t b = 0; b < bodies_.size(); ++b)
         {
             const FluidLoad& now = fluid[structures_.size() + b];
-            loads[b].force = newLoadShare*(now.force + bodies_[b].mass*gravity_) + (1 - newLoadShare)*last[b].force;
-            loads[b].moment = newLoadShare*now.moment + (1 - newLoadShare)*last[b].moment;
+            const Load& last = coupling.lastLoads()[b];
+            const double share = coupling.newLoadShare(int(b), newLoadShare);
+            loads[b].force = share*(now.force + bodies_[b].mass*gravity_) + (1 - share)*last.force;
+            loads[b].moment = share*now.moment + (1 - share)*last.moment;
         }
         return loads;
     }

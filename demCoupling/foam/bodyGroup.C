@@ -18,13 +18,20 @@ namespace
 constexpr double largestCount = 1e6;    // members of a group: a slip of the pen must not take all of the memory
 
 const std::vector<std::string> bodyKeywords{"shape", "density", "mass", "material", "spheres", "position", "orientation", "velocity",
-    "angularVelocity", "releaseTime", "array", "poses", "random"};
+    "angularVelocity", "releaseTime", "beforeRelease", "array", "poses", "random"};
 
 double readMass(const Foam::dictionary& dict, double volume)
 {
     if (dict.found("mass") == dict.found("density"))
         failIn(dict, "Give either 'density' [kg/m^3] or 'mass' [kg] of the body.");
     return dict.found("mass") ? readNumber(dict, "mass", positive) : readNumber(dict, "density", positive)*volume;
+}
+
+bool readEntersAtRelease(const Foam::dictionary& dict)
+{
+    const std::string before = dict.getOrDefault<Foam::word>("beforeRelease", "held");
+    if (before != "held" && before != "absent") failUnknown(dict, "beforeRelease", before, {"held", "absent"});
+    return before == "absent";
 }
 
 void readSpheres(const Foam::dictionary& dict, BodyGroup& group)
@@ -70,6 +77,17 @@ void checkPlanar(const BodyGroup& group, const BodyDefinition& body, const Scene
     if (std::abs(extent - frame.thickness) > 1e-6*frame.thickness)
         failIn(*group.dict, text("2D mesh: body ", body.name, " must reach through the mesh from front to back. Its extent along ", "xyz"[frame.planeAxis],
             " is ", extent, " m, the mesh's ", frame.thickness, " m.\n    Use a box or cylinder of that length along ", "xyz"[frame.planeAxis], "."));
+}
+
+/// Of a body that is not there at the start with what is fixed alone: whether its place is free is seen when it comes in.
+std::optional<Conflict> conflictOf(const BodyGroup& group, const BodyDefinition& body, const Obstacles& obstacles, double minGap)
+{
+    return findConflict({body.name, group.sampled, body.pose}, obstacles, minGap, !body.entersAtRelease);
+}
+
+void join(Obstacles& obstacles, const BodyGroup& group, const BodyDefinition& body)
+{
+    if (!body.entersAtRelease) obstacles.bodies.push_back({"body " + body.name, group.sampled, body.pose});
 }
 
 BodyDefinition member(const BodyGroup& group, const SceneFrame& frame, const std::string& suffix, const Pose& userPose, const Foam::dictionary& dict)
@@ -185,12 +203,12 @@ void placeRandomly(BodyGroup& group, const SceneFrame& frame, Obstacles& obstacl
         bool isPlaced = false;
         for (int k = 0; k < random.tries && !isPlaced; ++k)
             isPlaced = drawPose(group, random, base, frame, numbers, body.pose)
-                && !findConflict({body.name, group.sampled, body.pose}, obstacles, random.minGap);
+                && !conflictOf(group, body, obstacles, random.minGap);
         if (!isPlaced)
             failIn(dict, text("Only ", i, " of ", random.count, " bodies '", group.prototype.name, "' found a place within ", random.tries,
                 " tries.\n    Enlarge 'box', lower 'count' or 'minGap', or allow more 'tries'."));
         body.releaseTime = random.from + i*random.interval;
-        obstacles.shapes.push_back({"body " + body.name, group.sampled, body.pose});
+        join(obstacles, group, body);
         group.members.push_back(std::move(body));
     }
 }
@@ -273,6 +291,7 @@ BodyGroup readBodyGroup(const std::string& name, const Foam::dictionary& dict, c
     body.isPlanar = frame.isPlanar;
     body.planeAxis = frame.planeAxis;
     body.thinnest = thinnestExtent(*body.shape, frame);
+    body.entersAtRelease = readEntersAtRelease(dict);
     group.sampled = sampleShape(body.shape, body.thinnest);
     readSpheres(dict, group);
     return group;
@@ -293,11 +312,10 @@ void checkMembers(const BodyGroup& group, Obstacles& obstacles)
     const double tolerance = 1e-3*group.prototype.thinnest;
     for (const BodyDefinition& body : group.members)
     {
-        const ShapeAtPose placed{body.name, group.sampled, body.pose};
-        if (const auto conflict = findConflict(placed, obstacles, -tolerance))
+        if (const auto conflict = conflictOf(group, body, obstacles, -tolerance))
             failIn(*group.dict, text("Body ", body.name, " reaches ", 1000*conflict->overlap, " mm into ", conflict->with,
                 " at the start.\n    Its centre is at (", body.pose.position.transpose(), "). Move it, or let 'random' find places."));
-        obstacles.shapes.push_back({"body " + body.name, group.sampled, body.pose});
+        join(obstacles, group, body);
     }
 }
 

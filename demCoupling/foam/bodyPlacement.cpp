@@ -127,7 +127,7 @@ double gap(const ShapeAtPose& a, const ShapeAtPose& b, double farther)
     return ofMiddles < 0 ? std::min(ofSurfaces, ofMiddles) : ofSurfaces;
 }
 
-std::optional<Conflict> findConflict(const ShapeAtPose& body, const Obstacles& obstacles, double minGap)
+std::optional<Conflict> findConflict(const ShapeAtPose& body, const Obstacles& obstacles, double minGap, bool withBodies)
 {
     std::optional<Conflict> worst;
     const auto keepOutside = [&](int d, double sideGap)
@@ -144,7 +144,10 @@ std::optional<Conflict> findConflict(const ShapeAtPose& body, const Obstacles& o
     for (const auto& plane : obstacles.planes) keepWorse(worst, "wall " + plane.name, depthBehind(body, plane.point, plane.normal), minGap);
     for (const auto& wall : obstacles.facets)
         keepWorse(worst, "wall " + wall.name, depthInFacets(body, wall.surface, 0.25*shortestSide(body)), minGap);
-    for (const auto& other : obstacles.shapes) keepWorse(worst, other.name, -gap(body, other, std::max(minGap, 0.0) + 1e-6), minGap);
+    const auto keepClearOf = [&](const ShapeAtPose& other) { keepWorse(worst, other.name, -gap(body, other, std::max(minGap, 0.0) + 1e-6), minGap); };
+    for (const auto& structure : obstacles.shapes) keepClearOf(structure);
+    for (const auto& other : obstacles.bodies)
+        if (withBodies) keepClearOf(other);
     for (int d = 0; d < 3; ++d)
     {
         // the sides of the box may be open boundaries: a body must be inside, but owes them no gap

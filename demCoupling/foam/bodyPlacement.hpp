@@ -46,7 +46,8 @@ double gap(const ShapeAtPose& a, const ShapeAtPose& b, double farther);
 /// What bodies must keep clear of. A plane's normal points to the allowed side.
 struct Obstacles
 {
-    std::vector<ShapeAtPose> shapes;
+    std::vector<ShapeAtPose> shapes;        ///< structures
+    std::vector<ShapeAtPose> bodies;        ///< that are there at the start
     struct Plane { std::string name; Vec3 point, normal; };
     std::vector<Plane> planes;
     struct Facets { std::string name; TriSurface surface; };
@@ -57,7 +58,7 @@ struct Obstacles
 
 /// The deepest overlap among what is nearer than `minGap` (negative: overlaps up to -minGap are allowed); nothing when the place is free.
 struct Conflict { std::string with; double overlap; /* [m], negative: a gap too small */ };
-std::optional<Conflict> findConflict(const ShapeAtPose& body, const Obstacles& obstacles, double minGap);
+std::optional<Conflict> findConflict(const ShapeAtPose& body, const Obstacles& obstacles, double minGap, bool withBodies = true);
 
 /// Reproducible numbers, the same with every compiler and on every rank.
 class RandomNumbers

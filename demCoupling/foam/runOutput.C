@@ -178,7 +178,7 @@ void RunOutput::takeSums(RunState& state)
 
 void RunOutput::begin(const CoupledStep& step)
 {
-    for (const BodyRecord& record : step.records()) hasLeft_.push_back(record.hasLeft);
+    last_ = step.records();
     mass_.final = step.fluid().liquidVolume();
     if (mass_.initial == 0) mass_.initial = mass_.final;
     if (halo_.rank() == 0)
@@ -232,19 +232,23 @@ void RunOutput::record(const CoupledStep& step, const StepResult& result, const 
     line.courant = courant;
     const std::string text = log_.stepLine(line);
     Foam::Info<< text.c_str() << Foam::flush;
-    reportLeavers(records);
+    reportComings(records);
+    for (const std::string& waiting : result.waiting) Foam::Info<< waiting.c_str() << Foam::endl;
 }
 
-void RunOutput::reportLeavers(const std::vector<BodyRecord>& records)
+void RunOutput::reportComings(const std::vector<BodyRecord>& records)
 {
-    hasLeft_.resize(records.size(), 0);
+    const auto say = [&](std::size_t s, const char* what)
+    {
+        const Vec3& x = records[s].pose.position;
+        Foam::Info<< "body " << members_[s].name.c_str() << ' ' << what << ", its centre is at " << Foam::vector(x[0], x[1], x[2]) << Foam::endl;
+    };
     for (std::size_t s = 0; s < records.size(); ++s)
     {
-        if (!records[s].hasLeft || hasLeft_[s]) continue;
-        hasLeft_[s] = 1;
-        const Vec3& x = records[s].pose.position;
-        Foam::Info<< "body " << members_[s].name.c_str() << " has left the mesh, its centre is at " << Foam::vector(x[0], x[1], x[2]) << ": taken out" << Foam::endl;
+        if (last_[s].isAwaited && !records[s].isAwaited) say(s, "has come in");
+        if (!last_[s].hasLeft && records[s].hasLeft) say(s, "has left the mesh and is taken out");
     }
+    last_ = records;
 }
 
 void RunOutput::countRejected(const std::string& reason, double dt)
@@ -278,7 +282,11 @@ void RunOutput::end(const CoupledStep& step)
     if (history_) history_->flush();
     RunSummary summary;
     summary.bodies = step.scene().nBodies();
-    summary.bodiesLeft = step.coupling() ? step.coupling()->goneCount() : 0;
+    if (const BodyCoupling* bodies = step.coupling())
+    {
+        summary.bodiesLeft = bodies->count(Presence::Left);
+        summary.bodiesAwaited = bodies->count(Presence::Awaited);
+    }
     summary.steps = steps_ - firstStep_;
     summary.repeatedSteps = rejected_;
     summary.nodes = mesh_.nGlobal;

@@ -174,13 +174,18 @@ void insertBodies(LiggghtsModel& model, const DemSetup& setup)
     LAMMPS_NS::LAMMPS& dem = model.instance.lammps();
     markFixesAsUsed(*dem.modify);
     model.firstSphere.assign(1, 0);
-    model.isGone.assign(setup.bodies.size(), 0);
-    model.exits.resize(setup.bodies.size());
     model.parking = setup.box;
+    std::vector<char> isAway;
+    for (const BodyDefinition& body : setup.bodies)
+    {
+        isAway.push_back(body.entersAtRelease);
+        model.exits.push_back(body.pose);
+    }
+    const std::vector<BodyDefinition> bodies = placedAtStart(setup);
     model.instance.guarded([&] {
-        for (size_t b = 0; b < setup.bodies.size(); ++b)
+        for (size_t b = 0; b < bodies.size(); ++b)
         {
-            insertBody(model, setup.bodies[b], model.contacts.classOfBody[b]);
+            insertBody(model, bodies[b], model.contacts.classOfBody[b]);
             model.firstSphere.push_back(model.firstSphere.back() + static_cast<int>(setup.bodies[b].spheres.size()));
         }
         LAMMPS_NS::Atom& atoms = *dem.atom;
@@ -189,6 +194,7 @@ void insertBodies(LiggghtsModel& model, const DemSetup& setup)
         atoms.nghost = 0;
         atoms.map_init();
         atoms.map_set();
+        markGone(model, isAway);
         // places the spheres with a time step of 0 and a flag that LIGGGHTS has not set yet: by chance it divides 0 by 0 there, for a
         // virial nobody reads, and a program that traps floating point exceptions (as OpenFOAM's do) would end
         std::fenv_t environment;
@@ -204,10 +210,10 @@ void insertBodies(LiggghtsModel& model, const DemSetup& setup)
         if (model.multisphere->data().tag(b) != b + 1)
             throw DemError("LIGGGHTS has reordered the bodies");
     // the quaternion made from the axes may have the opposite sign or differ in the last bit
-    for (size_t b = 0; b < setup.bodies.size(); ++b)
+    for (size_t b = 0; b < bodies.size(); ++b)
     {
-        setPose(model, static_cast<int>(b), setup.bodies[b].pose);
-        setMotion(model, static_cast<int>(b), setup.bodies[b].motion);
+        setPose(model, static_cast<int>(b), bodies[b].pose);
+        setMotion(model, static_cast<int>(b), bodies[b].motion);
     }
     placeSpheres(model);
 }

@@ -57,7 +57,10 @@ struct LiggghtsEngine::Implementation
         insertBodies(model, setup);
         model.tally->sample();
         for (int b = 0; b < model.bodies.count; ++b)
+        {
+            isHeld[static_cast<size_t>(b)] = model.isGone[static_cast<size_t>(b)];
             applyMobility(b);
+        }
     }
 
     void applyMobility(int body)

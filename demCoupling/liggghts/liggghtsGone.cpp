@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Bodies that take part in nothing any more. LIGGGHTS cannot delete one without renumbering the others: their spheres stay, in a group whose pairs
-/// are never listed, and outside of the group that the walls look at. They are spread over the box: where all lie at the place they left at, looking
-/// through the bins would cost the square of their number.
+/// Bodies that take part in nothing, any more or yet. LIGGGHTS cannot delete one without renumbering the others: their spheres stay, in a group whose
+/// pairs are never listed, and outside of the group that the walls look at. They are spread over the box: where all lie at the place they left at,
+/// looking through the bins would cost the square of their number.
 #include "demCoupling/liggghts/liggghtsHistory.hpp"
 
 #include "atom.h"
@@ -29,13 +29,36 @@ double halton(int index, int base)
     return value;
 }
 
-Vec3 parkingPlace(const LiggghtsModel& model, int body)
+Vec3 parkingPlace(const std::array<Vec3, 2>& box, int body)
 {
     const Vec3 share(halton(body + 1, 2), halton(body + 1, 3), halton(body + 1, 5));
-    return model.parking[0] + share.cwiseProduct(model.parking[1] - model.parking[0]);
+    return box[0] + share.cwiseProduct(box[1] - box[0]);
+}
+
+void park(LiggghtsModel& model, int body)
+{
+    const double* q = model.bodies.quat[body];
+    Pose& exit = model.exits[static_cast<size_t>(body)];
+    exit = {Vec3::Map(model.bodies.xcm[body]), Eigen::Quaterniond(q[0], q[1], q[2], q[3])};
+    setPose(model, body, {parkingPlace(model.parking, body), exit.orientation});
+    for (int i = model.firstSphere[static_cast<size_t>(body)]; i < model.firstSphere[static_cast<size_t>(body) + 1]; ++i)
+        forgetWallContacts(model, i);
 }
 
 } // namespace
+
+std::vector<BodyDefinition> placedAtStart(const DemSetup& setup)
+{
+    std::vector<BodyDefinition> bodies = setup.bodies;
+    for (size_t b = 0; b < bodies.size(); ++b)
+    {
+        if (!bodies[b].entersAtRelease)
+            continue;
+        bodies[b].pose.position = parkingPlace(setup.box, static_cast<int>(b));
+        bodies[b].motion = Motion();
+    }
+    return bodies;
+}
 
 void excludeGone(LiggghtsModel& model)
 {
@@ -49,21 +72,20 @@ void setGone(LiggghtsModel& model, const std::vector<char>& isGone)
     const BodyArrays& bodies = model.bodies;
     for (size_t b = 0; b < isGone.size(); ++b)
     {
-        if (!isGone[b] || model.isGone[b])
+        if (isGone[b] == model.isGone[b])
             continue;
         const int body = static_cast<int>(b);
-        const double* q = bodies.quat[b];
-        model.exits[b] = {Vec3::Map(bodies.xcm[b]), Eigen::Quaterniond(q[0], q[1], q[2], q[3])};
-        setPose(model, body, {parkingPlace(model, body), model.exits[b].orientation});
+        if (isGone[b])
+            park(model, body);
+        else
+            setPose(model, body, model.exits[b]);
         setMotion(model, body, Motion());
         std::copy_n(bodies.drag[b], 3, bodies.fcm[b]);
         std::copy_n(bodies.hdTorque[b], 3, bodies.torque[b]);
-        for (int i = model.firstSphere[b]; i < model.firstSphere[b + 1]; ++i)
-            forgetWallContacts(model, i);
     }
     markGone(model, isGone);
     placeSpheres(model);
-    rebuildNeighbours(model); // without the pairs of those that have gone
+    rebuildNeighbours(model); // without the pairs of those that are gone
 }
 
 void markGone(LiggghtsModel& model, const std::vector<char>& isGone)

@@ -50,7 +50,8 @@ std::string fluidLine(const CaseControls& controls)
 std::string bodiesLine(const SceneCounts& scene)
 {
     if (scene.bodies == 0) return "none (DEM engine not opened)";
-    return text(scene.bodies, " free, ", scene.demSpheres, " DEM spheres, ", scene.walls, " DEM walls");
+    const std::string toCome = scene.bodiesToCome > 0 ? text(" (", scene.bodiesToCome, " come in at their release)") : "";
+    return text(scene.bodies, " free", toCome, ", ", scene.demSpheres, " DEM spheres, ", scene.walls, " DEM walls");
 }
 
 std::string structuresLine(const SceneCounts& scene)

@@ -41,9 +41,10 @@ constexpr Series allSeries[] = {
     {"contactMoment", 3, "N m", "of bodies and walls about the origin, space frame"},
     {"contacts", 1, "1", "number of touching partners"},
     {"wetFraction", 1, "1", "liquid share of the surface"},
-    {"left", 1, "1", "1: has left the mesh and was taken out, rests where it left"}};
+    {"left", 1, "1", "1: has left the mesh and was taken out, rests where it left"},
+    {"awaited", 1, "1", "1: not there yet, comes in at its position"}};
 
-constexpr std::size_t recordSize = 28;
+constexpr std::size_t recordSize = 29;
 constexpr std::size_t chunkRows = 256;      ///< rows a dataset grows by in the file
 constexpr std::size_t maxBufferedRows = 64;
 constexpr double maxBufferedSeconds = 1;
@@ -60,12 +61,19 @@ void pack(const BodyRecord& r, std::vector<double>& out)
     put(r.fluidMoment);
     put(r.contactForce);
     put(r.contactMoment);
-    out.insert(out.end(), {double(r.contacts), r.wetFraction, r.hasLeft ? 1.0 : 0.0});
+    out.insert(out.end(), {double(r.contacts), r.wetFraction, r.hasLeft ? 1.0 : 0.0, r.isAwaited ? 1.0 : 0.0});
 }
 
 std::string groupOf(const HistoryMember& member)
 {
     return (member.isStructure ? "/structures/" : "/bodies/") + member.name;
+}
+
+void createSeries(Hdf5File& out, const std::string& group, const Series& series)
+{
+    out.createTable(group + series.name, series.columns, chunkRows);
+    out.setAttribute(group + series.name, "unit", std::string(series.unit));
+    out.setAttribute(group + series.name, "meaning", std::string(series.meaning));
 }
 
 void checkNames(const std::string& file, const std::vector<HistoryMember>& members)
@@ -131,12 +139,7 @@ void BodyHistory::Implementation::create()
     for (std::size_t m = 0; m < members.size(); ++m)
     {
         const std::string group = groupOf(members[m]) + "/";
-        for (const auto& series : allSeries)
-        {
-            out.createTable(group + series.name, series.columns, chunkRows);
-            out.setAttribute(group + series.name, "unit", std::string(series.unit));
-            out.setAttribute(group + series.name, "meaning", std::string(series.meaning));
-        }
+        for (const auto& series : allSeries) createSeries(out, group, series);
         out.link("/run/time", group + "time");
         out.setAttribute(groupOf(members[m]), "mass", members[m].mass);
         out.setAttribute(groupOf(members[m]), "volume", members[m].volume);

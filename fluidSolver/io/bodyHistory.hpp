@@ -22,6 +22,7 @@ struct BodyRecord
     int contacts = 0;
     double wetFraction = 0; ///< liquid share of the surface, 0..1
     bool hasLeft = false;   ///< the mesh, for good
+    bool isAwaited = false; ///< has not come in yet: not there
 };
 
 struct HistoryMember

@@ -244,6 +244,7 @@ std::string RunLog::summary(const RunSummary& s)
         text += "\n  counted in this run (0 is good)\n";
         for (const auto& a : s.anomalies) text += format("  %-40s %12lld\n", a.first.c_str(), a.second);
     }
+    if (s.bodiesAwaited > 0) text += format("\n  %d of %d bodies have not come in\n", s.bodiesAwaited, s.bodies);
     if (s.bodiesLeft > 0) text += format("\n  %d of %d bodies have left the mesh\n", s.bodiesLeft, s.bodies);
     text += "\n  liquid volume [m^3]\n";
     text += format("  at the start %.8g, in %.8g, out %.8g, at the end %.8g\n", s.mass.initial, s.mass.inflow, s.mass.outflow,

@@ -98,7 +98,7 @@ void SurfaceSeries::append(Hdf5File& out, double time, const std::vector<BodyRec
     for (std::size_t i = 0; i < points_.size(); ++i)
     {
         const BodyRecord& record = records[pointMember_[i]];
-        const Vec3 arm = record.pose.orientation * points_[i];
+        const Vec3 arm = record.isAwaited ? Vec3(0, 0, 0) : record.pose.orientation * points_[i]; // a point: nothing to be seen
         put(points, record.pose.position + arm);
         put(velocity, record.motion.velocity + record.motion.angularVelocity.cross(arm));
     }

@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Bodies that leave the mesh are taken out where they left, for good: on one process and on two, stopped and continued, and on another number of processes.
+# Bodies that leave the mesh are taken out where they left, for good, and one that is absent before its release comes in at its place: on one process and
+# on two, stopped and continued, and on another number of processes.
 . "$(dirname "$0")/support.sh"
 mkdir -p "$work" && cd "$work" || exit
 rm -rf ./*
@@ -8,6 +9,20 @@ stop=0.22 end=0.32     # the bars leave at 0.19, 0.23 and 0.28 s
 
 makeJam one
 sed -i '/^structures$/,/^}$/d' one/constant/bodies
+sed -i '$d' one/constant/bodies
+cat >> one/constant/bodies << 'EOF'
+    late        // where the bars were
+    {
+        shape           { type box; size (0.02 0.1 0.02); }
+        density         590;
+        material        wood;
+        velocity        (0.5 0 0);
+        position        (-0.0225 0 0.23);
+        beforeRelease   absent;
+        releaseTime     0.25;
+    }
+}
+EOF
 setEntry one/system/controlDict writeInterval $stop
 setEntry one/system/controlDict writeControl timeStep
 fixedSteps one 0.004 $end 55
@@ -20,6 +35,7 @@ for ranks in 1 2; do
     (cd $case && solve $ranks) || exit
     setEntry $case.parts/system/controlDict endTime $stop
     (cd $case.parts && solve $ranks) || exit
+    cat $case.parts/log.{flotsamFoam,mpirun} 2> /dev/null | grep -q '1 of 4 bodies have not come in' || fail "no word about the body to come"
     cp -r $case.parts $case.other
     setEntry $case.parts/system/controlDict endTime $end
     (cd $case.parts && solve $ranks) || exit
@@ -31,7 +47,8 @@ setEntry one.other/system/controlDict endTime $end
 setEntry two.other/system/controlDict endTime $end
 (cd one.other && quietly decomposePar -latestTime && solve 2) || exit
 (cd two.other && quietly reconstructPar -latestTime && rm -r processor* && solve 1) || exit
-grep -q '3 of 3 bodies have left the mesh' two.other/log.flotsamFoam || fail "no word about bodies that left"
+grep -q '3 of 4 bodies have left the mesh' two.other/log.flotsamFoam || fail "no word about bodies that left"
+grep -q '^body late has come in' two.other/log.flotsamFoam || fail "no word about the body that came in"
 
 python - << 'PY' || exit
 import sys
@@ -42,7 +59,16 @@ import flotsam
 
 for case in ("one", "two", "one.parts", "two.parts", "one.other", "two.other"):
     history = flotsam.history(f"{case}/postProcessing/flotsam")
-    for name in history.bodies:
+    late = history["late"]
+    there = np.flatnonzero(late.awaited == 0)
+    if not len(there) or late.awaited[there[0]:].any() or not 0.25 < history.time[there[0]] < 0.26:
+        sys.exit(f"FAILED: {case}: the late bar has not come in at its release")
+    before = slice(0, there[0])
+    if np.ptp(late.position[before], axis=0).any() or late.velocity[before].any() or late.fluidForce[before].any() or late.contacts[before].any():
+        sys.exit(f"FAILED: {case}: the late bar was there before")
+    if not late.velocity[there[0], 0] > 0.45 or not late.velocity[there[0], 2] < -0.01:
+        sys.exit(f"FAILED: {case}: the late bar does not fly")
+    for name in (name for name in history.bodies if name != "late"):
         body = history[name]
         left = np.flatnonzero(body.left > 0)
         if not len(left) or len(left) != len(body.left) - left[0]:

@@ -5,6 +5,8 @@
 
 #include <mpi.h>
 
+#include <algorithm>
+
 using namespace flotsam;
 using namespace demTest;
 
@@ -195,4 +197,55 @@ TEST_CASE("any number of bodies may be gone at one place; what falls there falls
     CHECK(engine.contacts().size() == 1);
     CHECK((engine.states()[0].pose.position - alone.states()[0].pose.position).norm() < 1e-9);
     CHECK(engine.subSteps() == alone.subSteps());
+}
+
+TEST_CASE("a body to come touches nothing, not even at its place; it comes in there, at rest, and is felt from then on")
+{
+    BodyDefinition first = debris(Vec3(0.5, 0.5, 0.1)), second = first;
+    second.name = "second";
+    second.entersAtRelease = true;
+    second.pose.position.z() += 0.001; // in the first
+    second.motion.velocity = Vec3(1, 0, 0);
+    const DemSetup setup = scene({first, second}, {plane(Vec3::Zero(), Vec3::UnitZ())});
+    LiggghtsEngine engine(setup), alone(scene({first}, setup.walls));
+    engine.setLoads(weights(setup));
+    alone.setLoads({weights(setup)[0]});
+    const auto advanceBoth = [&]
+    {
+        for (int k = 0; k < 100; ++k)
+        {
+            engine.advance(2e-3);
+            alone.advance(2e-3);
+        }
+    };
+    advanceBoth(); // down to the floor
+    CHECK(engine.states()[1].pose.position == second.pose.position);
+    CHECK(engine.states()[1].motion.velocity == Vec3::Zero());
+    REQUIRE(engine.contacts().size() == 1);
+    CHECK((engine.states()[0].pose.position - alone.states()[0].pose.position).norm() < 1e-12);
+
+    const DemState before = engine.save();
+    engine.setGone({0, 0});
+    CHECK(engine.states()[1].pose.position == second.pose.position);
+    CHECK(engine.states()[1].motion.velocity == Vec3::Zero());
+    engine.setHeld({0, 0});
+    CHECK(engine.states()[1].motion.velocity == second.motion.velocity);
+    engine.setLoads(weights(setup));
+    for (int k = 0; k < 100; ++k)
+        engine.advance(2e-3);
+    const auto touches = [](const Contact& c) { return c.body == 1 || c.other == 1; };
+    const std::vector<Contact> contacts = engine.contacts();
+    CHECK(std::any_of(contacts.begin(), contacts.end(), touches));
+
+    LiggghtsEngine other(setup);
+    other.setHeld({0, 0});
+    other.setGone({0, 0}); // restore() knows better
+    other.setHeld({0, 1});
+    other.restore(before);
+    other.setGone({0, 0});
+    other.setHeld({0, 0});
+    other.setLoads(weights(setup));
+    for (int k = 0; k < 100; ++k)
+        other.advance(2e-3);
+    CHECK(numbersOf(other) == numbersOf(engine));
 }

@@ -232,6 +232,22 @@ TEST_CASE("random places: inside the box, apart, the same for the same seed")
     for (const auto& b : other.bodies) CHECK(std::abs((b.pose.orientation*Vec3::UnitX()).y()) < 1e-12); // yaw about y, which is up
 }
 
+TEST_CASE("bodies that come in at their release may have one place; structures and walls must be out of it")
+{
+    Scene s;
+    const std::string absent = bar + "beforeRelease absent; ", at = "position (0.5 0.5 0.2); ";
+    const BodiesInput input = s.read(bodies(absent + "poses ( { position (0.5 0.5 0.2); releaseTime 1; } { position (0.5 0.5 0.2); releaseTime 2; } );"));
+    REQUIRE(input.bodies.size() == 2);
+    for (const BodyDefinition& body : input.bodies) CHECK(body.entersAtRelease);
+    CHECK(!s.read(bodies(bar + at)).bodies[0].entersAtRelease);
+    const BodiesInput stream = s.read(bodies(absent + "random { count 200; box ((0.3 0.4 0.1) (0.6 0.5 0.3)); orientation uniformYaw; release { from 1; interval 0.5; } }"));
+    CHECK(stream.bodies.size() == 200);
+    CHECK(s.message("structures { post { shape { type cylinder; end1 (0.5 0 0.2); end2 (0.5 1 0.2); radius 0.05; } } }" + bodies(absent + at)).find("into structure post")
+        != std::string::npos);
+    CHECK(s.message(bodies(absent + "position (0.5 0.005 0.2);")).find("wall floor") != std::string::npos);
+    CHECK(s.message(bodies(bar + at + "beforeRelease abesnt;")).find("Did you mean: absent") != std::string::npos);
+}
+
 TEST_CASE("gaps of placed shapes")
 {
     const auto box = std::make_shared<SampledShape>(makeBox(Vec3::Zero(), Vec3(1, 0.1, 0.1)), 0.02);

@@ -80,11 +80,11 @@ def deepestOverlap(h, spheres):
     centres = [inSpace(h["bodies/" + name], spheres[name][0]) for name in names]
     reaches = [(np.linalg.norm(c, axis=1) + r).max() for c, r in spheres.values()]
     middle = [h["bodies/" + name].position for name in names]
-    left = [getattr(h["bodies/" + name], "left", np.zeros(len(h.time))) for name in names]
+    isThere = [h.isThere("bodies/" + name) for name in names]
     deepest = -np.inf
     for i, name in enumerate(names):
         for j in range(i):
-            near = (np.linalg.norm(middle[i] - middle[j], axis=1) < reaches[i] + reaches[j]) & (left[i] < 0.5) & (left[j] < 0.5)
+            near = (np.linalg.norm(middle[i] - middle[j], axis=1) < reaches[i] + reaches[j]) & isThere[i] & isThere[j]
             radii = spheres[name][1][:, None] + spheres[names[j]][1]
             for k in np.flatnonzero(near):
                 a, b = centres[i][k], centres[j][k]

@@ -317,6 +317,10 @@ class History:
             raise CaseError(f"no body or structure {name}; there are: {', '.join(self.bodies + self.structures)}")
         return self._members[found[0]]
 
+    def isThere(self, name):
+        """Per record: whether the body is in the mesh, neither to come (beforeRelease absent) nor gone."""
+        return (self[name].awaited < 0.5) & (self[name].left < 0.5)
+
     def at(self, name, quantity, time):
         """A series of a member, linear between the records."""
         values = getattr(self[name], quantity)
@@ -352,11 +356,10 @@ def sumForce(h, names, quantity="fluidForce"):
 
 
 def captured(h, inside, names=None):
-    """Share of the bodies per time whose position fulfils `inside` (function: positions n x 3 -> n booleans)."""
-    names = h.bodies if names is None else names
-    if not names:
-        return np.zeros(len(h.time))
-    return np.mean([np.asarray(inside(h["bodies/" + name].position), dtype=float) for name in names], axis=0)
+    """Share per time of the bodies that have come in whose position fulfils `inside` (function: positions n x 3 -> n booleans)."""
+    names = ["bodies/" + name for name in (h.bodies if names is None else names)]
+    nInside = sum((inside(h[name].position) & (h[name].awaited < 0.5) for name in names), np.zeros(len(h.time)))
+    return nInside / np.maximum(sum((h[name].awaited < 0.5 for name in names), np.zeros(len(h.time))), 1)
 
 
 # --- report -----------------------------------------------------------------------------------------------------------

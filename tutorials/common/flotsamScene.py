@@ -96,7 +96,7 @@ def waterBody(case, time, alpha=flotsam.ALPHA, level=0.5):
 
 
 def memberSurfaces(history, time):
-    """[(name, isStructure, vtkPolyData)] of the bodies and structures at the surface record nearest to `time`, but bodies that have left."""
+    """[(name, isStructure, vtkPolyData)] of the bodies and structures at the surface record nearest to `time`, but bodies that have left or are to come."""
     stored = history.surface
     if not stored or not len(stored["time"]):
         return []
@@ -106,10 +106,11 @@ def memberSurfaces(history, time):
     result = []
     for names, isStructure in ((history.bodies, False), (history.structures, True)):
         for name in names:
-            member = history[("structures/" if isStructure else "bodies/") + name]
+            path = ("structures/" if isStructure else "bodies/") + name
+            member = history[path]
             triangles = stored["triangles"][stored["member"] == member.number]
-            hasLeft = hasattr(member, "left") and np.interp(stored["time"][k], history.time, member.left) > 0.5
-            if len(triangles) and not hasLeft:
+            isThere = np.interp(stored["time"][k], history.time, history.isThere(path)) > 0.5
+            if len(triangles) and isThere:
                 result.append((name, isStructure, _polyData(points, triangles)))
     return result
 

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Whether a body that comes in at its release finds its place free. It must come in through the gas: fluid that it takes the place of is not pushed
+/// aside, which of gas nothing feels, and of liquid would be lost.
+#pragma once
+
+#include "algebra/halo.hpp"
+#include "core/simplexMesh.hpp"
+#include "demCoupling/core/rigidBody.hpp"
+
+namespace flotsam
+{
+
+class EntryCheck
+{
+public:
+    /// References must outlive this.
+    EntryCheck(const SimplexMesh& mesh, const Halo& halo, const std::vector<BodyDefinition>& bodies);
+
+    /// What is in the way of `body` at the pose of its definition, in words; empty: nothing. alpha: of all nodes, liquid 1; states: of all bodies,
+    /// of which those marked in isThere count. Collective; every rank gives the same.
+    std::string obstacle(int body, const std::vector<double>& alpha, const std::vector<BodyState>& states, const std::vector<char>& isThere) const;
+
+private:
+    bool isInLiquid(int body, const std::vector<double>& alpha) const;
+    bool touches(int body, int other, const Pose& pose) const;
+
+    const SimplexMesh& mesh_;
+    const Halo& halo_;
+    std::vector<BodyDefinition> bodies_;
+};
+
+} // namespace flotsam

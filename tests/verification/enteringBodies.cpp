@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Bodies that come in at their release: each through the gas at the place of the ones before, once that is free; none is there before, and no
+/// liquid is lost.
+#include "demCoupling/coupling/coupledStep.hpp"
+#include "geometry/primitives.hpp"
+#include "support/flowCases.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdio>
+
+using namespace flotsam;
+
+namespace
+{
+
+constexpr double g = 9.81, side = 0.1, level = 0.5, dt = 0.004;
+const Vec3 gravity(0, -g, 0), place(0.5, 0.8, 0.5);
+
+/// 2D, 1 m x 1.2 m, half full, open at the top.
+struct Tank
+{
+    SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, 2, {25, 30, 1}, {0, 0, 0}, {1, 1.2, 1});
+    Halo halo{mesh, MPI_COMM_WORLD};
+    FluidProperties fluid;
+    NumericsControls controls;
+    std::vector<BoundaryPatch> patches;
+    PhaseTimers timers;
+
+    Tank()
+    {
+        usePetsc();
+        fluid.isTwoPhase = true;
+        fluid.rhoLiquid = 1000;
+        fluid.muLiquid = 1e-3;
+        fluid.rhoGas = 1;
+        fluid.muGas = 1e-5;
+        fluid.gravity = {0, -g, 0};
+        for (int p = 0; p < 4; ++p) patches.push_back(makePatch(mesh, p, p == 3 ? BoundaryPatch::Velocity::Open : BoundaryPatch::Velocity::Slip));
+    }
+
+    FlowState rest() const
+    {
+        FlowState state = restState(mesh);
+        for (int i = 0; i < mesh.nNodes; ++i) state.alpha[i] = mesh.x[2*std::size_t(i) + 1] <= level;
+        return state;
+    }
+};
+
+BodyDefinition makeBar(const std::string& name, double releaseTime, const Vec3& position = place)
+{
+    BodyDefinition bar;
+    bar.name = name;
+    bar.shape = makeBox(Vec3::Zero(), Vec3(side, side, 1));
+    bar.volume = side*side;
+    bar.mass = 600*bar.volume;
+    bar.principalInertia = bar.mass/12*Vec3(1 + side*side, 1 + side*side, 2*side*side);
+    bar.pose.position = position;
+    bar.isPlanar = true;
+    bar.thinnest = side;
+    bar.releaseTime = releaseTime;
+    bar.entersAtRelease = true;
+    for (double y : {-0.04, -0.02, 0.0, 0.02, 0.04})
+        for (double x : {-0.04, -0.02, 0.0, 0.02, 0.04})
+            if (std::max(std::abs(x), std::abs(y)) > 0.03) bar.spheres.push_back({Vec3(x, y, 0), 0.01});
+    return bar;
+}
+
+DemSetup makeDem(const std::vector<BodyDefinition>& bars)
+{
+    DemSetup dem;
+    dem.bodies = bars;
+    dem.laws = {ContactLaw()};
+    dem.box = {Vec3(0, 0, 0), Vec3(1, 1.2, 1)};
+    for (const Vec3& normal : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0)})
+    {
+        WallDefinition wall;
+        wall.name = "wall";
+        wall.point = normal[0] < 0 ? Vec3(1, 0, 0) : Vec3(Vec3::Zero());
+        wall.normal = normal;
+        dem.walls.push_back(wall);
+    }
+    return dem;
+}
+
+std::unique_ptr<CoupledStep> makeRun(Tank& tank, const DemSetup& dem)
+{
+    return std::make_unique<CoupledStep>(tank.mesh, tank.halo, tank.fluid, tank.controls, tank.patches, Scene({}, dem.bodies, gravity), &dem, tank.timers);
+}
+
+double speedOfLiquid(const Tank& tank, const FlowState& state)
+{
+    double fastest = 0;
+    for (int i = 0; i < tank.mesh.nNodes; ++i)
+        if (state.alpha[i] > 0.9) fastest = std::max(fastest, std::hypot(state.u[2*std::size_t(i)], state.u[2*std::size_t(i) + 1]));
+    return tank.halo.max(fastest);
+}
+
+} // namespace
+
+TEST_CASE("a body that comes in falls freely from its place, and neither liquid nor gas is set in motion by its coming")
+{
+    Tank tank;
+    const DemSetup dem = makeDem({makeBar("bar", 0.02)});
+    const auto run = makeRun(tank, dem);
+    run->start(tank.rest(), true);
+    const double liquid = run->fluid().liquidVolume();
+    for (int k = 0; k < 5; ++k) REQUIRE(run->step(dt).isAccepted);
+    CHECK(run->records()[0].isAwaited);
+    CHECK(run->records()[0].pose.position == place);
+    CHECK(run->cover()->cuts.empty());
+    const double before = largestSpeed(tank.mesh, tank.halo, run->fluid().state().u);
+    for (int k = 0; k < 25; ++k)
+    {
+        REQUIRE(run->step(dt).isAccepted);
+        const BodyRecord record = run->records()[0];
+        const double t = (k + 1)*dt;
+        CHECK_FALSE(record.isAwaited);
+        CHECK(record.motion.velocity[1] == doctest::Approx(-g*t).epsilon(0.01)); // gas of 1/600 of its density
+        CHECK(record.pose.position[1] == doctest::Approx(place[1] - 0.5*g*t*t).epsilon(1e-3));
+        const double fastest = largestSpeed(tank.mesh, tank.halo, run->fluid().state().u);
+        CHECK(fastest < before + 3*g*t);
+        CHECK(speedOfLiquid(tank, run->fluid().state()) < 1e-2);
+    }
+    std::printf("speed of the liquid under the falling bar %.1e m/s, liquid made %.1e\n", speedOfLiquid(tank, run->fluid().state()),
+        run->fluid().liquidVolume()/liquid - 1);
+    CHECK(run->fluid().liquidVolume() == doctest::Approx(liquid).epsilon(1e-12));
+}
+
+TEST_CASE("one place serves many: each waits until it is free; one whose place is in the water does not come; a restart goes on with the same bits")
+{
+    Tank tank;
+    const DemSetup dem = makeDem({makeBar("first", 0), makeBar("second", 0), makeBar("third", 0.1), makeBar("sunk", 0, Vec3(0.2, 0.3, 0.5))});
+    const auto run = makeRun(tank, dem);
+    run->start(tank.rest(), true);
+    const double liquid = run->fluid().liquidVolume();
+    std::vector<double> entered(4, -1);
+    std::vector<std::string> waiting;
+    CoupledStep::Arrays arrays, ofProcess;
+    FlowState state;
+    for (int k = 0; k < 150; ++k)
+    {
+        if (k == 20) // the first is there, the second waits
+        {
+            arrays = run->save();
+            ofProcess = run->saveOfProcess();
+            state = run->fluid().state();
+            run->forgetUnwritten();
+        }
+        const StepResult result = run->step(dt);
+        CAPTURE(k);
+        CAPTURE(result.failure);
+        REQUIRE(result.isAccepted);
+        waiting.insert(waiting.end(), result.waiting.begin(), result.waiting.end());
+        const std::vector<BodyRecord> records = run->records();
+        for (int b = 0; b < 4; ++b)
+            if (!records[b].isAwaited && entered[b] < 0) entered[b] = k*dt;
+    }
+    std::printf("came in at %.3f, %.3f, %.3f s; liquid made %.1e\n", entered[0], entered[1], entered[2], run->fluid().liquidVolume()/liquid - 1);
+    CHECK(entered[0] == 0);
+    const double fall = std::sqrt(2*1.05*side/g); // free of the place
+    CHECK(entered[1] == doctest::Approx(fall).epsilon(dt/fall));
+    CHECK(entered[2] > entered[1] + fall);
+    CHECK(entered[3] == -1);
+    CHECK(run->records()[3].isAwaited);
+    REQUIRE(waiting.size() == 3);
+    CHECK(waiting[0] == "body second is to come in, but there is body 'first' at its place: it waits");
+    CHECK(waiting[1] == "body sunk is to come in, but there is liquid at its place: it waits");
+    CHECK(run->fluid().liquidVolume() == doctest::Approx(liquid).epsilon(1e-12));
+
+    const auto again = makeRun(tank, dem);
+    for (const auto& array : ofProcess) arrays.insert(array);
+    again->restore(std::move(state), arrays, CoupledStep::Fields::Exact);
+    for (int k = 20; k < 150; ++k) REQUIRE(again->step(dt).isAccepted);
+    CHECK(again->fluid().state().u == run->fluid().state().u);
+    CHECK(again->fluid().state().alpha == run->fluid().state().alpha);
+    CHECK(again->save() == run->save());
+}
