@@ -36,14 +36,15 @@ double extent(const BodyDefinition& body)
 } // namespace
 
 EntryCheck::EntryCheck(const SimplexMesh& mesh, const Halo& halo, const std::vector<BodyDefinition>& bodies)
-:   mesh_(mesh), halo_(halo), bodies_(bodies)
+:   mesh_(mesh), halo_(halo), bodies_(bodies), nodes_(bodies.size())
 {}
 
-std::string EntryCheck::obstacle(int body, const std::vector<double>& alpha, const std::vector<BodyState>& states, const std::vector<char>& isThere) const
+std::string EntryCheck::obstacle(int body, const std::vector<double>& alpha, const std::vector<BodyState>& states, const std::vector<char>& isThere)
 {
     for (int other = 0; other < int(bodies_.size()); ++other)
         if (other != body && isThere[other] && touches(body, other, states[other].pose)) return "body '" + bodies_[other].name + "'";
-    return halo_.any(isInLiquid(body, alpha)) ? "liquid" : "";
+    const std::vector<int>& nodes = nodesAt(body);
+    return halo_.any(std::any_of(nodes.begin(), nodes.end(), [&](int i) { return alpha[i] > wet; })) ? "liquid" : "";
 }
 
 bool EntryCheck::touches(int body, int other, const Pose& pose) const
@@ -54,23 +55,28 @@ bool EntryCheck::touches(int body, int other, const Pose& pose) const
     return std::min(gapOfSpheres(a, a.pose, b, pose), gapOfSpheres(b, pose, a, a.pose)) < gap;
 }
 
-/// In an element that has a node within the body or half an element from it.
-bool EntryCheck::isInLiquid(int body, const std::vector<double>& alpha) const
+/// Nodes of the elements that have one within the body or half an element from it.
+const std::vector<int>& EntryCheck::nodesAt(int body)
 {
+    if (nodes_[body]) return *nodes_[body];
     const BodyDefinition& b = bodies_[body];
     const double radius = extent(b);
+    std::vector<int> nodes;
     for (int e = 0; e < mesh_.nElements; ++e)
     {
-        const int* nodes = &mesh_.elements[std::size_t(e)*(mesh_.dim + 1)];
-        if (std::none_of(nodes, nodes + mesh_.dim + 1, [&](int i) { return alpha[i] > wet; })) continue;
-        for (int a = 0; a <= mesh_.dim; ++a)
+        const int *first = &mesh_.elements[std::size_t(e)*(mesh_.dim + 1)], *last = first + mesh_.dim + 1;
+        const bool isNear = std::any_of(first, last, [&](int i)
         {
-            const std::array<double, 3> p = mesh_.spacePoint(nodes[a]);
+            const std::array<double, 3> p = mesh_.spacePoint(i);
             const Vec3 x(p[0], p[1], p[2]);
-            if ((x - b.pose.position).norm() < radius + mesh_.h[e] && distanceOf(b, b.pose, x) < 0.5*mesh_.h[e]) return true;
-        }
+            return (x - b.pose.position).norm() < radius + mesh_.h[e] && distanceOf(b, b.pose, x) < 0.5*mesh_.h[e];
+        });
+        if (isNear) nodes.insert(nodes.end(), first, last);
     }
-    return false;
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    nodes_[body] = std::move(nodes);
+    return *nodes_[body];
 }
 
 } // namespace flotsam

@@ -7,6 +7,8 @@
 #include "core/simplexMesh.hpp"
 #include "demCoupling/core/rigidBody.hpp"
 
+#include <optional>
+
 namespace flotsam
 {
 
@@ -18,15 +20,16 @@ public:
 
     /// What is in the way of `body` at the pose of its definition, in words; empty: nothing. alpha: of all nodes, liquid 1; states: of all bodies,
     /// of which those marked in isThere count. Collective; every rank gives the same.
-    std::string obstacle(int body, const std::vector<double>& alpha, const std::vector<BodyState>& states, const std::vector<char>& isThere) const;
+    std::string obstacle(int body, const std::vector<double>& alpha, const std::vector<BodyState>& states, const std::vector<char>& isThere);
 
 private:
-    bool isInLiquid(int body, const std::vector<double>& alpha) const;
     bool touches(int body, int other, const Pose& pose) const;
+    const std::vector<int>& nodesAt(int body);
 
     const SimplexMesh& mesh_;
     const Halo& halo_;
     std::vector<BodyDefinition> bodies_;
+    std::vector<std::optional<std::vector<int>>> nodes_; // per body that has asked: of the elements that it would touch
 };
 
 } // namespace flotsam

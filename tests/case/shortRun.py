@@ -15,7 +15,7 @@ speed = np.linalg.norm(flotsam.fields(".", "last", ["U"])["U"], axis=1)
 report.within("largest speed", speed.max(), 1e-6, 5, "m/s")
 if "massError" in h.run:
     report.within("largest mass error", np.abs(h.run["massError"]).max(), 0, 1e-3)
-if name in ("damBreak", "floatingBar", "slitDam", "bridgePier"):
+if name in ("damBreak", "floatingBar", "slitDam", "bridgePier", "debrisRack"):
     alpha = flotsam.fields(".", "last", [flotsam.ALPHA])[flotsam.ALPHA]
     report.within("smallest phase value", alpha.min(), -1e-9, 1)
     report.within("largest phase value", alpha.max(), 0, 1 + 1e-9)
@@ -51,4 +51,11 @@ elif name == "bridgePier":
     speed = np.array([h[log].velocity[-1] for log in h.bodies])
     report.within("mean speed of the logs", speed[:, 0].mean(), 0.40, 0.45, "m/s", "they drift: 0.4375 m/s")
     report.within("largest vertical speed of a log", np.abs(speed[:, 2]).max(), 0, 0.05, "m/s", "they float at their draft")
+elif name == "debrisRack":
+    report.within("logs", len(h.bodies), 100, 100)
+    came = [h[log] for log in h.bodies if h[log].awaited[-1] < 0.5]
+    report.within("logs that came in", len(came), 2, 6, "", "due: at 0.010, 0.012, .. s; those that stand in each other's way wait")
+    report.within("smallest speed along the channel", min(log.velocity[-1, 0] for log in came), 0.44, 0.46, "m/s", "0.45 m/s through the air")
+    report.within("largest speed downward", max(-log.velocity[-1, 2] for log in came), 0.02, 9.81 * 0.012, "m/s", "free fall")
+    report.within("speed of those to come", max(np.abs(h[log].velocity).max() for log in h.bodies if h[log].awaited[-1] > 0.5), 0, 0, "m/s")
 report.end()

@@ -17,6 +17,10 @@ case $1 in
     floatingBar) end=0.1 ;;
     barAgainstPost) end=0.1 ;;
     slitDam | bridgePier) end=0.02 ;;
+    debrisRack) # a few logs at once
+        end=0.02
+        sed -i -e 's/^firstRelease .*/firstRelease 0.01;/' -e 's/^releaseInterval .*/releaseInterval 0.002;/' system/parameters
+        ;;
     *) fail "no tutorial $1" ;;
 esac
 setEntry system/controlDict endTime $end

@@ -39,7 +39,7 @@ TEST_CASE("a place is free where there is neither liquid nor a body that is ther
     const SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, 3, {12, 8, 8}, {0, 0, 0}, {3, 2, 2});
     const Halo halo(mesh, MPI_COMM_WORLD);
     const Vec3 place(1.5, 1, 1.5);
-    const EntryCheck check(mesh, halo, {makeLog("new", place), makeLog("old", Vec3(9, 9, 9))});
+    EntryCheck check(mesh, halo, {makeLog("new", place), makeLog("old", Vec3(9, 9, 9))});
     std::vector<double> alpha(mesh.nNodes);
     const auto fill = [&](double level) { for (int i = 0; i < mesh.nNodes; ++i) alpha[i] = mesh.spacePoint(i)[2] <= level; };
     const auto obstacle = [&](const Vec3& other, double yaw = 0, bool isThere = true) { return check.obstacle(0, alpha, {at(place), at(other, yaw)}, {0, isThere}); };

@@ -67,7 +67,7 @@ def forceOnStructures(case, h, reach, times):
     mass, momentum = np.array([_between(case, t, reach) for t in times]).T
     downSlope = GRAVITY * np.sin(np.arctan(reach.slope))
     bodies = sum(h["bodies/" + n].mass for n in h.bodies if reach.begin < h["bodies/" + n].position[-1, 0] < reach.end)
-    chosen = h.time > times[0]
+    chosen = (h.time > times[0]) & (h.time <= times[-1] + 1e-9)
     held = wallForce(h)[chosen].mean() if h.bodies else 0.0
     change = (momentum[-1] - momentum[0]) / (times[-1] - times[0])
     trapezoids = np.convolve(np.diff(times), [0.5, 0.5]) / (times[-1] - times[0])
