@@ -58,9 +58,9 @@ BodyCoupling::BodyCoupling(const DemSetup& setup, const CouplingControls& contro
     newContact_.resize(n);
     contact_.resize(n);
     smoothing_.resize(n);
-    wallLoads_.resize(setup.walls.size());
-    contactCounts_.assign(n, 0);
-    wallContactCounts_.assign(setup.walls.size(), 0);
+    touch_.wallLoads.resize(setup.walls.size());
+    touch_.counts.assign(n, 0);
+    touch_.wallCounts.assign(setup.walls.size(), 0);
     isJustReleased_.assign(n, 0);
     for (const BodyDefinition& body : setup.bodies)
     {
@@ -112,15 +112,15 @@ void BodyCoupling::shareResults()
             put(at, result_[b]);
             put(at, newContact_[b].force);
             put(at, newContact_[b].moment);
-            *at++ = contactCounts_[b];
+            *at++ = touch_.counts[b];
         }
         for (int w = 0; w < walls; ++w)
         {
-            put(at, wallLoads_[w].force);
-            put(at, wallLoads_[w].moment);
-            *at++ = wallContactCounts_[w];
+            put(at, touch_.wallLoads[w].force);
+            put(at, touch_.wallLoads[w].moment);
+            *at++ = touch_.wallCounts[w];
         }
-        *at = largestOverlap_;
+        *at = touch_.largestOverlap;
     }
     MPI_Bcast(buffer.data(), int(buffer.size()), MPI_DOUBLE, 0, comm_);
     const double* at = buffer.data();
@@ -129,15 +129,15 @@ void BodyCoupling::shareResults()
         get(at, result_[b]);
         get(at, newContact_[b].force);
         get(at, newContact_[b].moment);
-        contactCounts_[b] = int(*at++);
+        touch_.counts[b] = int(*at++);
     }
     for (int w = 0; w < walls; ++w)
     {
-        get(at, wallLoads_[w].force);
-        get(at, wallLoads_[w].moment);
-        wallContactCounts_[w] = int(*at++);
+        get(at, touch_.wallLoads[w].force);
+        get(at, touch_.wallLoads[w].moment);
+        touch_.wallCounts[w] = int(*at++);
     }
-    largestOverlap_ = *at;
+    touch_.largestOverlap = *at;
 }
 
 void BodyCoupling::runEngine(double duration, const std::vector<Load>& loads)
@@ -149,15 +149,15 @@ void BodyCoupling::runEngine(double duration, const std::vector<Load>& loads)
         engine_->advance(duration);
         result_ = engine_->states();
         newContact_ = engine_->meanContactLoads();
-        wallLoads_ = engine_->meanWallLoads();
-        std::fill(contactCounts_.begin(), contactCounts_.end(), 0);
-        std::fill(wallContactCounts_.begin(), wallContactCounts_.end(), 0);
-        largestOverlap_ = 0;
+        touch_.wallLoads = engine_->meanWallLoads();
+        std::fill(touch_.counts.begin(), touch_.counts.end(), 0);
+        std::fill(touch_.wallCounts.begin(), touch_.wallCounts.end(), 0);
+        touch_.largestOverlap = 0;
         for (const Contact& c : engine_->contacts())
         {
-            ++contactCounts_[c.body];
-            ++(c.other >= 0 ? contactCounts_[c.other] : wallContactCounts_[-1 - c.other]);
-            largestOverlap_ = std::max(largestOverlap_, c.overlap);
+            ++touch_.counts[c.body];
+            ++(c.other >= 0 ? touch_.counts[c.other] : touch_.wallCounts[-1 - c.other]);
+            touch_.largestOverlap = std::max(touch_.largestOverlap, c.overlap);
         }
         if (!engine_->hasContact()) newContact_.assign(newContact_.size(), Load()); // round-off of a free flight
     });
@@ -170,10 +170,10 @@ void BodyCoupling::begin(double time, double dt)
     iteration_.begin(dt);
     guessAtStart_ = contactGuess();
     factorsAtStart_ = inertia_.factors();
-    overlapAtStart_ = largestOverlap_;
+    touchAtStart_ = touch_;
     springSpeed_ = 0;
     for (int b = 0; b < nBodies(); ++b)
-        springSpeed_ = std::max(springSpeed_, std::sqrt(overlapAtStart_*contact_[b].force.norm()/setup_.bodies[b].mass));
+        springSpeed_ = std::max(springSpeed_, std::sqrt(touch_.largestOverlap*contact_[b].force.norm()/setup_.bodies[b].mass));
     std::vector<char> held(isHeld_);
     for (int b = 0; b < nBodies(); ++b) held[b] = !isDue(b, time) || !isThere(b);
     isAtStart_ = true;
@@ -210,7 +210,7 @@ void BodyCoupling::takeOut(const std::vector<char>& bodies)
         if (!bodies[b] || !isThere(b)) continue;
         presence_[b] = Presence::Left;
         held[b] = 1;
-        contactCounts_[b] = 0;
+        touch_.counts[b] = 0;
         guess[b] = lastLoads_[b] = newContact_[b] = contact_[b] = Load();
         inertia_.drop(b);
     }
@@ -316,7 +316,7 @@ void BodyCoupling::reject()
     iteration_.setGuess(guessAtStart_); // that of the failed step would spoil the next prediction
     smoothing_ = difference(guessAtStart_, contact_);
     inertia_.setFactors(factorsAtStart_);
-    largestOverlap_ = overlapAtStart_;
+    touch_ = touchAtStart_;
 }
 
 std::vector<double> BodyCoupling::save() const
@@ -327,7 +327,7 @@ std::vector<double> BodyCoupling::save() const
     MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG, 0, comm_);
     data.resize(size);
     MPI_Bcast(data.data(), int(size), MPI_DOUBLE, 0, comm_);
-    for (const auto* loads : {&lastLoads_, &contact_, &contactGuess()})
+    for (const auto* loads : {&touch_.wallLoads, &lastLoads_, &contact_, &contactGuess()})
         for (const Load& l : *loads)
             for (const Vec3* v : {&l.force, &l.moment}) data.insert(data.end(), v->data(), v->data() + 3);
     for (const InertiaFactor& f : inertia_.factors()) data.insert(data.end(), {f.mass, f.turn});
@@ -335,17 +335,19 @@ std::vector<double> BodyCoupling::save() const
     data.insert(data.end(), smooth.begin(), smooth.end());
     data.insert(data.end(), isHeld_.begin(), isHeld_.end());
     for (const Presence p : presence_) data.push_back(double(p));
-    data.push_back(largestOverlap_);
+    for (const std::vector<int>* counts : {&touch_.counts, &touch_.wallCounts}) data.insert(data.end(), counts->begin(), counts->end());
+    data.push_back(touch_.largestOverlap);
     return data;
 }
 
 void BodyCoupling::restore(const std::vector<double>& data)
 {
-    const std::size_t tail = (3*6 + 2 + SmoothMotion::perBody + 2)*setup_.bodies.size() + 1;
+    const std::size_t tail = (3*6 + 2 + SmoothMotion::perBody + 3)*setup_.bodies.size() + perWall*setup_.walls.size() + 1;
     if (data.size() < tail) throw std::runtime_error("restart: the stored state of the bodies is too short for this case");
     const double* at = data.data() + data.size() - tail;
     std::vector<Load> guess(lastLoads_.size());
-    for (auto* loads : {&lastLoads_, &contact_, &guess})
+    Touch touch = touch_;
+    for (auto* loads : {&touch.wallLoads, &lastLoads_, &contact_, &guess})
         for (Load& l : *loads) { get(at, l.force); get(at, l.moment); }
     iteration_.setGuess(guess);
     smoothing_ = difference(guess, contact_);
@@ -356,7 +358,9 @@ void BodyCoupling::restore(const std::vector<double>& data)
     at += SmoothMotion::perBody*isHeld_.size();
     for (char& flag : isHeld_) flag = char(*at++);
     for (Presence& p : presence_) p = Presence(char(*at++));
-    largestOverlap_ = *at;
+    for (std::vector<int>* counts : {&touch.counts, &touch.wallCounts})
+        for (int& n : *counts) n = int(*at++);
+    touch.largestOverlap = *at;
     guarded([&]
     {
         engine_->setHeld(isHeld_);
@@ -365,6 +369,7 @@ void BodyCoupling::restore(const std::vector<double>& data)
         newContact_.assign(newContact_.size(), Load());
     });
     shareResults();
+    touch_ = touch;
     states_ = predicted_ = result_;
     smooth_->restore(states_, smooth);
 }

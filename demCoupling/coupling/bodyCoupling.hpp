@@ -58,9 +58,9 @@ public:
     const std::vector<Load>& contactGuess() const { return iteration_.guess(); } ///< to solve the fluid with, from smoothStates()
     const std::vector<Load>& contactLoads() const { return contact_; } ///< mean over the last accepted step
     const std::vector<Load>& lastLoads() const { return lastLoads_; }       ///< fluid and weight, mean over the last accepted step; held bodies: 0
-    const std::vector<Load>& wallLoads() const { return wallLoads_; }       ///< time means of the last DEM run, moments about the origin of space
-    const std::vector<int>& contactCounts() const { return contactCounts_; }
-    const std::vector<int>& wallContactCounts() const { return wallContactCounts_; } ///< bodies that touch each wall
+    const std::vector<Load>& wallLoads() const { return touch_.wallLoads; }       ///< time means of the last DEM run, moments about the origin of space
+    const std::vector<int>& contactCounts() const { return touch_.counts; }
+    const std::vector<int>& wallContactCounts() const { return touch_.wallCounts; } ///< bodies that touch each wall
     bool isHeld(int body) const { return isHeld_[body]; }
     /// Of the step's mean fluid load and weight, lastLoads() the rest; share: Fluid::newLoadShare(). In its first step a body that was let go has only the new.
     double newLoadShare(int body, double share) const { return isJustReleased_[body] ? 1 : share; }
@@ -80,7 +80,7 @@ public:
     bool hasLightBodies() const;
     int repeats() const { return iteration_.repeats(); } ///< further solves needed in this step
     double mismatch() const { return iteration_.mismatch(); } ///< of the accepted contact, as CouplingControls::tolerance
-    double largestOverlap() const { return largestOverlap_; } ///< of DEM surfaces at the end of the last run [m]
+    double largestOverlap() const { return touch_.largestOverlap; } ///< of DEM surfaces at the end of the last run [m]
     double demTimeStep() const { return demTimeStep_; }
 
     /// Everything that continues the run exactly, and back. Collective; the same on every rank.
@@ -103,17 +103,22 @@ private:
     DemState saved_;                            // rank 0
     bool isAtStart_ = false;                    // the engine is in the state saved_: no restore, which rebuilds the neighbour lists
     std::vector<BodyState> states_, predicted_, result_;
-    std::vector<Load> lastLoads_, loads_, newContact_, contact_, wallLoads_;
+    std::vector<Load> lastLoads_, loads_, newContact_, contact_;
     std::vector<Load> smoothing_, guessAtStart_; // smoothing_: of the guess, what is not contact
     std::vector<InertiaFactor> factorsAtStart_;
-    std::vector<int> contactCounts_, wallContactCounts_;
+    struct Touch                // of the engine's last run
+    {
+        std::vector<Load> wallLoads;
+        std::vector<int> counts, wallCounts;
+        double largestOverlap = 0;
+    } touch_, touchAtStart_;
     std::vector<char> isHeld_, isJustReleased_;
     std::vector<Presence> presence_;
     ContactIteration iteration_;
     AddedInertia inertia_;
     MotionCheck check_;
     std::unique_ptr<SmoothMotion> smooth_;
-    double dt_ = 0, largestOverlap_ = 0, overlapAtStart_ = 0, demTimeStep_ = 0;
+    double dt_ = 0, demTimeStep_ = 0;
     double springSpeed_ = 0;    // what the springs can add to a body's speed in this step [m/s]
 };
 

@@ -292,3 +292,30 @@ TEST_CASE("a bar is held until its release, then has its velocity; out of the me
     CHECK(run.records()[0].pose.position[1] == place);
     CHECK(run.records()[0].motion.velocity.norm() == 0);
 }
+
+TEST_CASE("after a restart the contacts are those that were: of the bar and of what it touches")
+{
+    Channel channel;
+    const BodyDefinition bar = makeBar(590, Vec3(1.2, 0.5, 0.5));
+    const DemSetup dem = makeDem(bar, 1.2 + side/2 + 1e-9);
+    const auto makeRun = [&]
+    {
+        return std::make_unique<CoupledStep>(channel.mesh, channel.halo, channel.fluid, channel.controls, channel.patches, Scene({}, {bar}, Vec3::Zero()), &dem,
+            channel.timers);
+    };
+    const auto run = makeRun(), again = makeRun();
+    run->start(channel.rest(), true);
+    for (int k = 0; k < 5; ++k) REQUIRE(run->step(0.01).isAccepted);
+    CoupledStep::Arrays arrays = run->save();
+    arrays.merge(run->saveOfProcess());
+    again->restore(run->fluid().state(), arrays, CoupledStep::Fields::Exact);
+    const BodyRecord was = run->records()[0], is = again->records()[0];
+    REQUIRE(was.contacts > 0);
+    CHECK(is.contacts == was.contacts);
+    CHECK(is.contactForce == was.contactForce);
+    CHECK(is.fluidForce == was.fluidForce);
+    REQUIRE(run->coupling()->wallLoads()[0].force[0] > 0);
+    CHECK(again->coupling()->wallLoads()[0].force == run->coupling()->wallLoads()[0].force);
+    CHECK(again->coupling()->wallLoads()[0].moment == run->coupling()->wallLoads()[0].moment);
+    CHECK(again->coupling()->wallContactCounts() == run->coupling()->wallContactCounts());
+}

@@ -78,9 +78,10 @@ def kirschmer(depth):
     return KIRSCHMER * (setup["barDiameter"] / setup["clearance"])**(4 / 3) * speed**2 / (2 * momentum.GRAVITY)
 
 
-def head(depth):
-    """Depth and velocity head [m]."""
-    return depth + (setup["discharge"] / (setup["width"] * depth))**2 / (2 * momentum.GRAVITY)
+def lossOf(force, depth):
+    """Loss of head [m] that a force on what stands in the channel makes, momentum theorem in 1D: to first order the same as from the levels, which
+    have waves of 2 mm."""
+    return force / (1000 * momentum.GRAVITY * setup["width"] * depth)
 
 
 def depths():
@@ -105,6 +106,7 @@ def results():
         part = dict(zip(("up", "down"), _between(time, depth.T, begin, end)))
         part["outflow"] = _between(flowTime, outflow, begin, end)
         part["water"], part["contact"] = (_between(h.time, out[k], begin, end) for k in ("water", "contact"))
+        part["loss"] = lossOf(part["water"] + part["contact"], part["up"])
         chosen = time[(time >= begin - 1e-9) & (time <= end + 1e-9)]
         force, part["entering"] = momentum.forceOnStructures(CASE, h, reach, chosen)
         part["momentum"] = force - momentum.gainOfBodies(h, reach, chosen[0], chosen[-1]) / (chosen[-1] - chosen[0])

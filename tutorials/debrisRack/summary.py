@@ -15,11 +15,10 @@ def writeSummary(run, file):
     ]
     for name in ("clean", "jammed"):
         part = run[name]
-        loss = rack.head(part["up"]) - rack.head(part["down"])
         rows += [
             (f"depth upstream, {name}", float(100 * part["up"]), "cm", ""),
             (f"depth downstream, {name}", float(100 * part["down"]), "cm", f"{100 * setup['depth']:g} cm kept by the outlet"),
-            (f"loss of head, {name}", float(1000 * loss), "mm", f"{1000 * rack.kirschmer(part['up']):.1f} mm: Kirschmer" if name == "clean" else ""),
+            (f"loss of head from the force on the rack, {name}", float(1000 * part["loss"]), "mm", f"{1000 * rack.kirschmer(part['up']):.1f} mm: Kirschmer" if name == "clean" else ""),
             (f"outflow, {name}", float(1000 * part["outflow"]), "l/s", f"{1000 * setup['discharge']:g} l/s enter"),
             (f"force of the water on the rack, {name}", float(part["water"]), "N", ""),
             (f"force of the logs on the rack, {name}", float(part["contact"]), "N", ""),
