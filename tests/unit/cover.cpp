@@ -345,8 +345,8 @@ TEST_CASE("with what others cover of it every body's surface is closed")
             for (const CoveredFacet& f : cover.coveredFacets)
             {
                 if (f.solid != int(s) || !scene.mesh.isOwnedElement[f.element]) continue;
-                add(f.element, f.shape, f.area);
-                covered += std::abs(f.area[0]);
+                for (int q = 0; q < f.nPoints; ++q) add(f.element, f.shape[q], f.area);
+                covered += f.nPoints * std::abs(f.area[0]);
             }
             scene.halo.sum(moments.data(), 12);
             covered = scene.halo.sum(covered);
