@@ -275,6 +275,7 @@ void CoverBuilder::cutFixedSolids(const std::vector<Solid>& solids)
         account(c, e, 1, fixedTotals_);
     }
     findActiveNodes(c, touchedElements_);
+    findClosedFaces(c);
     for (const CutElement& cut : c.cuts)
         for (int a = 0; a <= mesh_.dim; ++a) isNearFixedCut_[nodesOf(cut.element)[a]] = 1;
     touchedNodes_.clear();
@@ -315,6 +316,7 @@ const Cover& CoverBuilder::cutMovingSolids(const std::vector<Solid>& solids)
             applySamples(cover_, solids, static_cast<int>(s), samples_[s]);
             addElementsOf(cover_, solids, static_cast<int>(s), samples_[s]);
         }
+    addClosedFaces();
     copyFixedCuts();
     nodeFaces_.clear();
     std::vector<double> totals = fixedTotals_;

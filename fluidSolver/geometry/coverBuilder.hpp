@@ -55,6 +55,9 @@ private:
         bool isApart = false;
     };
 
+    /// Element of fixed solids that closeFaces() may have given facets, and the node beyond the face.
+    struct ClosedFace { int element, nodeBeyond; };
+
     /// What one solid alone cuts out: integrals of (1, r) over the volume and of their products over the surface, r from the origin.
     struct OwnCut
     {
@@ -112,6 +115,8 @@ private:
     bool isBesideFixed(const Cover& cover, const std::vector<Solid>& solids, int element) const;
     bool isAtEdge(const std::vector<int>& face, int element) const;
     void restoreFixedCover();
+    void findClosedFaces(const Cover& cover);
+    void addClosedFaces();
     void addElementsOf(const Cover& cover, const std::vector<Solid>& solids, int solid, const std::vector<Sample>& samples);
     void cutElement(Cover& cover, const std::vector<Solid>& solids, int element) const;
     bool isAtEdgeOfOne(const Cover& cover, int element) const;
@@ -154,6 +159,7 @@ private:
     Cover fixedCover_;                  // the fixed solids alone
     std::vector<int> fixedFace_;        // nNodes: face_ of fixedCover_
     std::vector<char> isNearFixedCut_;  // nNodes: node of an element that the fixed solids cut
+    std::vector<ClosedFace> closedFaces_;
     std::vector<double> fixedTotals_;   // volume, area per solid and shared elements of fixedCover_, this rank
 
     Cover cover_;

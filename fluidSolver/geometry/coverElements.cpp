@@ -160,6 +160,26 @@ void CoverBuilder::closeFaces(const Cover& cover, const std::vector<Solid>& soli
     }
 }
 
+void CoverBuilder::findClosedFaces(const Cover& cover)
+{
+    closedFaces_.clear();
+    for (const CutElement& cut : cover.cuts)
+        for (int corner = 0; corner <= mesh_.dim; ++corner)
+        {
+            if (!endsAtEdge(cover, cut.element, corner)) continue;
+            const InteriorFace& face = graph_.faces[elementFace_[std::size_t(cut.element) * (mesh_.dim + 1) + corner]];
+            closedFaces_.push_back({cut.element, face.opposite[face.element[0] == cut.element]});
+        }
+}
+
+/// What closes a face is of the cut beyond it: that is linear, too, where a moving solid is nearest to the node there, however far it is from the element itself.
+void CoverBuilder::addClosedFaces()
+{
+    for (const ClosedFace& closed : closedFaces_)
+        if (cover_.nearestSolid[closed.nodeBeyond] != fixedCover_.nearestSolid[closed.nodeBeyond] && firstVisit(elementMark_, closed.element))
+            touchedElements_.push_back(closed.element);
+}
+
 template <int dim>
 void CoverBuilder::storeCut(Cover& cover, const std::vector<Solid>& solids, int element, const SimplexMoments<dim>& cut,
     const SimplexFacet<dim>* facets, int nFacets) const
