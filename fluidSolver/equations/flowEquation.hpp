@@ -78,6 +78,7 @@ private:
     void findLayers();
     std::vector<int> findLayerNodes() const;
     void findLayerShares();
+    void findCoveredRuns();
     void findLayerSolids();
     template<int D> void assembleLayers();
     template<int D> void addLayerElement(int e, double share);
@@ -86,7 +87,7 @@ private:
     template<int D> double layerShare(int s, int e, const double* shape) const;
     template<int D> void addCoveredFacet(int s, const CoveredFacet& facet, SolidCoupling& coupling);
     template<int D> void addCoveredVolume(int s, const CoveredVolume& volume, SolidCoupling& coupling);
-    template<int D> void addLayerLoad(int e, int a, double factor, const double* load, SolidCoupling& coupling);
+    template<int D> void addLayerLoad(int e, int a, const double* load, SolidCoupling& coupling);
     template<int D> void addConductance(int a, int b, double conductance, double hydrostatic);
     template<int D> void assembleGhosts();
     void findFilms();
@@ -139,7 +140,8 @@ private:
     std::vector<FilmPair> films_;
     struct LayerElement { int element; double share; }; // share of the solids' surface there that they cover of each other
     std::vector<LayerElement> layers_;
-    std::vector<int> coveredByElement_;         // positions in Cover::coveredFacets, by element and solid
+    struct CoveredRun { int element, solid, start, end; };  // in Cover::coveredFacets
+    std::vector<CoveredRun> coveredRuns_;
     std::vector<std::vector<int>> facetsOf_, volumesOf_; // per solid: those of the cover's covered ones that it has a part in
     std::vector<char> isLayerNode_;             // nNodes, empty: no layers on any rank; nodes of layers in solids and pockets
     std::vector<int> layerSolid_;               // nNodes: whose share of the layers' content is 1 there

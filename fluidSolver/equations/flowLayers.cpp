@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
 namespace flotsam
@@ -66,29 +65,40 @@ void FlowEquation::findLayers()
 void FlowEquation::findLayerShares()
 {
     layers_.clear();
+    findCoveredRuns();
     const std::vector<CoveredFacet>& facets = step_.cover->coveredFacets;
-    coveredByElement_.resize(facets.size());
-    std::iota(coveredByElement_.begin(), coveredByElement_.end(), 0);
-    std::sort(coveredByElement_.begin(), coveredByElement_.end(), [&](int a, int b)
-    {
-        return std::tuple(facets[a].element, facets[a].solid, a) < std::tuple(facets[b].element, facets[b].solid, b);
-    });
-    for (std::size_t k = 0; k < facets.size();)
+    for (std::size_t k = 0; k < coveredRuns_.size();)
     {
         double covered[3] = {}, alone = 0;
-        const CoveredFacet& first = facets[coveredByElement_[k]];
-        for (; k < facets.size(); ++k)
-        {
-            const CoveredFacet& facet = facets[coveredByElement_[k]];
-            if (facet.element != first.element || facet.solid != first.solid) break;
-            const double* area = facet.area;
-            for (int d = 0; d < 3; ++d) covered[d] += area[d];
-            alone += std::hypot(area[0], area[1], area[2]);
-        }
+        const CoveredRun first = coveredRuns_[k];
+        for (; k < coveredRuns_.size() && coveredRuns_[k].element == first.element && coveredRuns_[k].solid == first.solid; ++k)
+            for (int f = coveredRuns_[k].start; f < coveredRuns_[k].end; ++f)
+            {
+                const double* area = facets[f].area;
+                for (int d = 0; d < 3; ++d) covered[d] += facets[f].nPoints*area[d];
+                alone += facets[f].nPoints*std::hypot(area[0], area[1], area[2]);
+            }
         const double share = std::min(1.0, std::hypot(covered[0], covered[1], covered[2])/alone);
         if (!layers_.empty() && layers_.back().element == first.element) layers_.back().share = std::max(layers_.back().share, share);
         else layers_.push_back({first.element, share});
     }
+}
+
+/// Pieces of one solid in one element, as they follow each other: a few runs of each, by element and solid.
+void FlowEquation::findCoveredRuns()
+{
+    coveredRuns_.clear();
+    const std::vector<CoveredFacet>& facets = step_.cover->coveredFacets;
+    for (int f = 0; f < int(facets.size()); ++f)
+    {
+        const bool isNew = coveredRuns_.empty() || coveredRuns_.back().element != facets[f].element || coveredRuns_.back().solid != facets[f].solid;
+        if (isNew) coveredRuns_.push_back({facets[f].element, facets[f].solid, f, f});
+        coveredRuns_.back().end = f + 1;
+    }
+    std::sort(coveredRuns_.begin(), coveredRuns_.end(), [](const CoveredRun& a, const CoveredRun& b)
+    {
+        return std::tie(a.element, a.solid, a.start) < std::tie(b.element, b.solid, b.start);
+    });
 }
 
 /// What flows along the layer in an element.
@@ -155,17 +165,17 @@ double FlowEquation::layerShare(int s, int e, const double* shape) const
     return share;
 }
 
-/// factor times the load that the unit of pressure at corner a of the element exerts on a solid, and the volume that its motion makes room for.
+/// The load that the unit of pressure at corner a of the element exerts on a solid, and the volume that its motion makes room for.
 template<int D>
-void FlowEquation::addLayerLoad(int e, int a, double factor, const double* load, SolidCoupling& coupling)
+void FlowEquation::addLayerLoad(int e, int a, const double* load, SolidCoupling& coupling)
 {
     constexpr int B = D + 1, nDof = RigidArm<D>::nDof;
     const int node = mesh_.elements[std::size_t(e)*(D + 1) + a];
     const std::size_t place = placeOf<D>(node, placeInSolid_, coupling);
     for (int d = 0; d < nDof; ++d)
     {
-        if (mesh_.isOwnedElement[e]) coupling.row[(place*nDof + d)*B + D] -= factor*load[d];
-        if (e < mesh_.nInnerElements && node < mesh_.nOwned) coupling.column[(place*B + D)*nDof + d] += factor*load[d];
+        if (mesh_.isOwnedElement[e]) coupling.row[(place*nDof + d)*B + D] -= load[d];
+        if (e < mesh_.nInnerElements && node < mesh_.nOwned) coupling.column[(place*B + D)*nDof + d] += load[d];
     }
 }
 
@@ -173,11 +183,18 @@ void FlowEquation::addLayerLoad(int e, int a, double factor, const double* load,
 template<int D>
 void FlowEquation::addCoveredFacet(int s, const CoveredFacet& facet, SolidCoupling& coupling)
 {
-    const double weight = (facet.solid == s) - layerShare<D>(s, facet.element, facet.shape);
-    double force[D], load[RigidArm<D>::nDof] = {};
-    for (int d = 0; d < D; ++d) force[d] = weight*facet.area[d];
-    RigidArm<D>(mesh_, (*step_.solids)[s], &mesh_.elements[std::size_t(facet.element)*(D + 1)], facet.shape).template addLoads<1>(force, load);
-    for (int a = 0; a <= D; ++a) addLayerLoad<D>(facet.element, a, facet.shape[a], load, coupling);
+    double atCorner[D + 1][RigidArm<D>::nDof] = {};
+    for (int q = 0; q < facet.nPoints; ++q)
+    {
+        const double* shape = facet.shape[q];
+        const double weight = (facet.solid == s) - layerShare<D>(s, facet.element, shape);
+        double force[D], load[RigidArm<D>::nDof] = {};
+        for (int d = 0; d < D; ++d) force[d] = weight*facet.area[d];
+        RigidArm<D>(mesh_, (*step_.solids)[s], &mesh_.elements[std::size_t(facet.element)*(D + 1)], shape).template addLoads<1>(force, load);
+        for (int a = 0; a <= D; ++a)
+            for (int d = 0; d < RigidArm<D>::nDof; ++d) atCorner[a][d] += shape[a]*load[d];
+    }
+    for (int a = 0; a <= D; ++a) addLayerLoad<D>(facet.element, a, atCorner[a], coupling);
 }
 
 /// The rest of the share's surface, where one solid's goes over into another's.
@@ -199,7 +216,7 @@ void FlowEquation::addCoveredVolume(int s, const CoveredVolume& volume, SolidCou
             for (int d = 0; d < D; ++d) force[d] = -volume.second[a*N + b]*ofShare[d];
             RigidArm<D>(mesh_, (*step_.solids)[s], nodes[b]).template addLoads<1>(force, load);
         }
-        addLayerLoad<D>(volume.element, a, 1, load, coupling);
+        addLayerLoad<D>(volume.element, a, load, coupling);
     }
 }
 

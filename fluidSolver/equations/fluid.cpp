@@ -3,6 +3,7 @@
 
 #include "equations/initialProfile.hpp"
 #include "equations/rigidCoupling.hpp"
+#include "geometry/meanCover.hpp"
 
 #include <cmath>
 #include <utility>
@@ -78,7 +79,7 @@ void Fluid::keepGeometry()
 {
     if (!fluid_.isTwoPhase) return;
     if (!std::isfinite(keptLiquid())) setKeptLiquid(liquidVolume()/mesh_.thickness);
-    start_ = *cover_;
+    keepForMean(*cover_, start_);
     isMoved_ = true;
 }
 

@@ -132,7 +132,7 @@ private:
     std::vector<double> level_;             // of the last search
     bool isLevelKnown_ = false;             // the search was on the present phase field
     const Cover* cover_ = nullptr;
-    Cover start_, during_;              // while solids move: geometry of t, mean over the step
+    Cover start_, during_;              // while solids move: geometry of t (as keepForMean() leaves it), mean over the step
     bool isMoved_ = false;              // start_ holds
     std::unique_ptr<GasRegion> gas_;    // when gas far from the water is left out
     Basins basins_;

@@ -37,13 +37,13 @@ struct CutFacet
 
 /// A piece of a moving solid's surface in an element that other solids share, where what they leave of it is not what it is alone: bodies that lie on each other or
 /// on structures leave no element between. Pieces of the solid alone have their area, those that the cover has (CutFacet) the opposite: what is left of the sum is covered.
-/// One for each quadrature point.
 struct CoveredFacet
 {
     int element;
     int solid;          ///< moving: free, prescribed
-    double area[3];     ///< vector into the solid, in-plane components [m^(dim-1)]
-    double shape[4];    ///< shape functions of the element at the point
+    int nPoints;        ///< as CutFacet, of equal weights
+    double area[3];     ///< of each point: vector into the solid, in-plane components [m^(dim-1)]
+    double shape[3][4]; ///< shape functions of the element at the points
 };
 
 /// Of an element with such pieces, or inside of one of their solids: what the moving solids cut out of it alone, less its solid part. Positive where they
@@ -51,7 +51,7 @@ struct CoveredFacet
 struct CoveredVolume
 {
     int element;
-    double first[4], second[16];    ///< int N_a, int N_a N_b, as in CutElement
+    double second[16];  ///< int N_a N_b, as in CutElement
 };
 
 /// Interior face of two active elements of which at least one is cut.

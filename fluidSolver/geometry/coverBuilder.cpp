@@ -59,9 +59,9 @@ int cornerOf(const SimplexMesh& mesh, const InteriorFace& face, int side)
 
 CoverBuilder::CoverBuilder(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo)
     : mesh_(mesh), graph_(graph), halo_(halo), bins_(mesh, nodeReach(mesh, halo)), film_(mesh, halo), snap_(nodeSnap(mesh, halo)),
-      elementFace_(std::size_t(mesh.nElements) * (mesh.dim + 1), -1), isBoundaryNode_(mesh.nNodes, 0),
+      nodeFaces_(mesh, film_, snap_), elementFace_(std::size_t(mesh.nElements) * (mesh.dim + 1), -1), isBoundaryNode_(mesh.nNodes, 0),
       elementMark_(mesh.nElements, 0), nodeMark_(mesh.nNodes, 0), face_(mesh.nNodes, 0), aloneDistance_(mesh.nNodes, farDistance),
-      aloneFace_(mesh.nNodes, 0)
+      aloneFace_(mesh.nNodes, 0), isSharedNode_(mesh.nNodes, 0)
 {
     for (std::size_t f = 0; f < graph.faces.size(); ++f)
         for (int side = 0; side < 2; ++side)
@@ -160,7 +160,7 @@ void CoverBuilder::sampleMovingSolids(const std::vector<Solid>& solids)
 double CoverBuilder::cutDistance(const Solid& solid, const Sample& sample) const
 {
     const auto x = mesh_.spacePoint(sample.node);
-    const double distance = snapped(sample.node, sample.distance - solid.offsetAt(Vec3(x[0], x[1], x[2])));
+    const double distance = snapped(sample.distance - solid.offsetAt(Vec3(x[0], x[1], x[2])), snap_[sample.node]);
     return std::max(distance, sample.film);
 }
 
@@ -179,6 +179,20 @@ void CoverBuilder::applySamples(Cover& cover, const std::vector<Solid>& solids, 
     }
 }
 
+/// False: nothing is known of a solid at some node, and none has a part in the element.
+bool CoverBuilder::isNear(const std::vector<double>& distance, int element) const
+{
+    const int* nodes = nodesOf(element);
+    return std::all_of(nodes, nodes + mesh_.dim + 1, [&](int i) { return distance[i] < farDistance; });
+}
+
+bool CoverBuilder::isBesideFixed(const Cover& cover, const std::vector<Solid>& solids, int element) const
+{
+    const int* nodes = nodesOf(element);
+    const auto isFixed = [&](int s) { return s >= 0 && solids[s].kind == Solid::Kind::Fixed; };
+    return std::any_of(nodes, nodes + mesh_.dim + 1, [&](int i) { return isFixed(cover.nearestSolid[i]); });
+}
+
 bool CoverBuilder::isAtEdge(const std::vector<int>& face, int element) const
 {
     const int* nodes = nodesOf(element);
@@ -194,14 +208,16 @@ bool CoverBuilder::firstVisit(std::vector<int>& mark, int i) const
     return true;
 }
 
-/// Elements that the samples may have changed: those that the solid may cut, and cut ones whose distances changed.
-void CoverBuilder::addElementsOf(const Solid& solid, const std::vector<Sample>& samples)
+/// Elements that the samples may have changed: those that the solid may cut, and cut ones whose distances changed. Beside fixed solids also some that it has no
+/// part in: see findCovered().
+void CoverBuilder::addElementsOf(const Cover& cover, const std::vector<Solid>& solids, int solid, const std::vector<Sample>& samples)
 {
     const auto add = [this](int element) { if (firstVisit(elementMark_, element)) touchedElements_.push_back(element); };
+    const auto addNear = [&](int element) { if (isNear(cover.distance, element) || isBesideFixed(cover, solids, element)) add(element); };
     for (const Sample& s : samples)
     {
         if (firstVisit(nodeMark_, s.node)) touchedNodes_.push_back(s.node);
-        if (!isNearFixedCut_[s.node]) forEachElementOf(s, cutDistance(solid, s), face_, add);
+        if (!isNearFixedCut_[s.node]) forEachElementOf(s, cutDistance(solids[solid], s), face_, addNear);
         else
             for (int k = graph_.nodeElementStart[s.node]; k < graph_.nodeElementStart[s.node + 1]; ++k) add(graph_.nodeElement[k]);
     }
@@ -248,9 +264,10 @@ void CoverBuilder::cutFixedSolids(const std::vector<Solid>& solids)
         const auto isInside = [&](const Sample& k) { return cutDistance(solids[s], k) < 0; };
         if (!halo_.any(std::any_of(samples.begin(), samples.end(), isInside))) continue; // beside the mesh: nearest to its nodes, it would hide bodies from them
         applySamples(c, solids, static_cast<int>(s), samples);
-        addElementsOf(solids[s], samples);
+        addElementsOf(c, solids, static_cast<int>(s), samples);
     }
     std::sort(touchedElements_.begin(), touchedElements_.end());
+    nodeFaces_.clear();
     fixedTotals_.assign(2 * solids.size() + 1, 0);
     for (int e : touchedElements_)
     {
@@ -258,6 +275,7 @@ void CoverBuilder::cutFixedSolids(const std::vector<Solid>& solids)
         account(c, e, 1, fixedTotals_);
     }
     findActiveNodes(c, touchedElements_);
+    findClosedFaces(c);
     for (const CutElement& cut : c.cuts)
         for (int a = 0; a <= mesh_.dim; ++a) isNearFixedCut_[nodesOf(cut.element)[a]] = 1;
     touchedNodes_.clear();
@@ -296,9 +314,11 @@ const Cover& CoverBuilder::cutMovingSolids(const std::vector<Solid>& solids)
         if (solids[s].kind != Solid::Kind::Fixed)
         {
             applySamples(cover_, solids, static_cast<int>(s), samples_[s]);
-            addElementsOf(solids[s], samples_[s]);
+            addElementsOf(cover_, solids, static_cast<int>(s), samples_[s]);
         }
+    addClosedFaces();
     copyFixedCuts();
+    nodeFaces_.clear();
     std::vector<double> totals = fixedTotals_;
     for (int e : touchedElements_)
     {

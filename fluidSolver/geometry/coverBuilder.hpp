@@ -6,8 +6,9 @@
 #include "geometry/cover.hpp"
 #include "geometry/cutSimplex.hpp"
 #include "geometry/nodeBins.hpp"
-#include "geometry/wallFilm.hpp"
+#include "geometry/nodeFaces.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -44,6 +45,18 @@ private:
     /// Distance of one solid at a node near it, without the solid's offsets, and the position of the nearest of the shape's faces. film: how far the
     /// solid is kept off a wall there at least.
     struct Sample { int node, face; double distance, film; };
+
+    /// Distances of a solid's faces at the nodes of one element, without those that have the whole element inside. isApart: one has it outside, and the solid no part in it.
+    template <int dim>
+    struct CuttingFaces
+    {
+        double distances[(maxFaces + 1) * (dim + 1)];   // room for one more
+        int n = 0;
+        bool isApart = false;
+    };
+
+    /// Element of fixed solids that closeFaces() may have given facets, and the node beyond the face.
+    struct ClosedFace { int element, nodeBeyond; };
 
     /// What one solid alone cuts out: integrals of (1, r) over the volume and of their products over the surface, r from the origin.
     struct OwnCut
@@ -83,11 +96,13 @@ private:
     template <int dim, class Visit> void visitCutAlone(const Solid& solid, int element, Visit visit) const;
     void findCovered(Cover& cover, const std::vector<Solid>& solids);
     void findSharedNodes(const Cover& cover);
-    void addCovered(Cover& cover, int solid, int element, double area, const double* normal, int nPoints, const double (*shape)[4]) const;
-    template <int dim> void addAlone(Cover& cover, const std::vector<Solid>& solids, int solid, CoveredVolume& volume) const;
-    void subtractCut(Cover& cover, const std::vector<Solid>& solids, int element) const;
+    template <int nCorners>
+    void addCovered(Cover& cover, int solid, int element, double area, const double* normal, int nPoints, const double (*shape)[nCorners]) const;
+    template <int dim> void addAlone(Cover& cover, const std::vector<Solid>& solids, int solid, int element);
+    void subtractCut(Cover& cover, const std::vector<Solid>& solids, const CutElement& cut);
     void subtractSolidPart(const Cover& cover, CoveredVolume& volume) const;
-    void addSolidPart(double sign, const double* first, const double* second, CoveredVolume& volume) const;
+    void addSolidPart(double sign, const double* second, CoveredVolume& volume) const;
+    CoveredVolume& coveredVolume(Cover& cover, int element);
     bool isShared(const Cover& cover, int solid, int element) const;
     Vec3 pointIn(int element, const double* shape) const;
     bool moveSurface(OffsetSearch& search, Solid& solid, const OwnCut& own);
@@ -96,22 +111,27 @@ private:
     void applySamples(Cover& cover, const std::vector<Solid>& solids, int solid, const std::vector<Sample>& samples);
     double cutDistance(const Solid& solid, const Sample& sample) const;
     template <class Visit> void forEachElementOf(const Sample& sample, double distance, const std::vector<int>& face, Visit visit) const;
+    bool isNear(const std::vector<double>& distance, int element) const;
+    bool isBesideFixed(const Cover& cover, const std::vector<Solid>& solids, int element) const;
     bool isAtEdge(const std::vector<int>& face, int element) const;
     void restoreFixedCover();
-    void addElementsOf(const Solid& solid, const std::vector<Sample>& samples);
+    void findClosedFaces(const Cover& cover);
+    void addClosedFaces();
+    void addElementsOf(const Cover& cover, const std::vector<Solid>& solids, int solid, const std::vector<Sample>& samples);
     void cutElement(Cover& cover, const std::vector<Solid>& solids, int element) const;
     bool isAtEdgeOfOne(const Cover& cover, int element) const;
     bool endsAtEdge(const Cover& cover, int element) const;
     bool endsAtEdge(const Cover& cover, int element, int corner) const;
     template <int dim>
     void closeFaces(const Cover& cover, const std::vector<Solid>& solids, int element, const double* distance, std::vector<SimplexFacet<dim>>& facets) const;
+    template <int dim> void cutElementAtEdge(Cover& cover, const std::vector<Solid>& solids, int element, const double* distance) const;
     template <int dim> void cutElementOf(Cover& cover, const std::vector<Solid>& solids, int element, const double* distance) const;
     template <int dim>
     void storeCut(Cover& cover, const std::vector<Solid>& solids, int element, const SimplexMoments<dim>& cut,
         const SimplexFacet<dim>* facets, int nFacets) const;
     template <int dim> std::array<double, (dim + 1) * dim> verticesOf(int element) const;
-    template <int dim> int cuttingFaces(const Solid& solid, int element, double* cutting) const;
-    template <int dim> EdgeCut<dim> cutAtEdge(const Solid& solid, int element) const;
+    template <int dim> CuttingFaces<dim> cuttingFaces(const Solid& solid, int element) const;
+    template <int dim> EdgeCut<dim> cutAtEdge(const CuttingFaces<dim>& faces, int element) const;
     int solidAt(const Cover& cover, const std::vector<Solid>& solids, int element, const double* shape) const;
     void copyFixedCuts();
     void findGhostFaces(Cover& cover) const;
@@ -121,7 +141,6 @@ private:
     void sumTotals(Cover& cover, std::vector<double> totals, int nSolids) const;
 
     const int* nodesOf(int element) const { return &mesh_.elements[std::size_t(element) * (mesh_.dim + 1)]; }
-    double snapped(int node, double distance) const { return std::abs(distance) < snap_[node] ? -snap_[node] : distance; }
     bool firstVisit(std::vector<int>& mark, int i) const;
 
     const SimplexMesh& mesh_;
@@ -130,6 +149,7 @@ private:
     NodeBins bins_;
     WallFilm film_;
     std::vector<double> snap_;          // nNodes: distance that counts as solid [m]
+    mutable NodeFaces nodeFaces_;
     std::vector<int> elementFace_;      // nElements*(dim+1): position in graph.faces, -1 at the boundary
     std::vector<char> isBoundaryNode_;
     std::array<double, 3> lower_{}, upper_{};   // of the whole mesh, in its plane
@@ -139,6 +159,7 @@ private:
     Cover fixedCover_;                  // the fixed solids alone
     std::vector<int> fixedFace_;        // nNodes: face_ of fixedCover_
     std::vector<char> isNearFixedCut_;  // nNodes: node of an element that the fixed solids cut
+    std::vector<ClosedFace> closedFaces_;
     std::vector<double> fixedTotals_;   // volume, area per solid and shared elements of fixedCover_, this rank
 
     Cover cover_;
@@ -150,19 +171,19 @@ private:
     std::vector<double> aloneDistance_; // nNodes, scratch
     std::vector<int> aloneFace_;        // nNodes, scratch
     std::vector<KnownVolume> knownVolumes_;
-    std::vector<int> sharedCuts_;       // cut elements with nodes of several solids
+    std::vector<int> coveredVolumeOf_;  // nElements, empty at first: position in cover_.coveredVolumes, -1 outside of findCovered()
     std::vector<int> sharedNodes_;      // of elements with nodes of several solids
     std::vector<char> isSharedNode_;    // nNodes
 };
 
-/// Elements that a solid at `distance` from the node may cut: all of a node inside. Of a node outside those where an edge of the solid may pass
+/// Elements without mark that a solid at `distance` from the node may cut: all of a node inside. Of a node outside those where an edge of the solid may pass
 /// between the nodes: then one of them is nearer than 3/4 of the longest edge.
 template <class Visit>
 void CoverBuilder::forEachElementOf(const Sample& sample, double distance, const std::vector<int>& face, Visit visit) const
 {
     if (distance > 0.75 * bins_.reach(sample.node)) return;
     for (int k = graph_.nodeElementStart[sample.node]; k < graph_.nodeElementStart[sample.node + 1]; ++k)
-        if (distance < 0 || isAtEdge(face, graph_.nodeElement[k])) visit(graph_.nodeElement[k]);
+        if (const int e = graph_.nodeElement[k]; elementMark_[e] != mark_ && (distance < 0 || isAtEdge(face, e))) visit(e);
 }
 
 /// Owned and inner elements that the solid alone may cut; aloneDistance_ and aloneFace_ are its own meanwhile.
@@ -180,7 +201,8 @@ void CoverBuilder::forEachElementAlone(const Solid& solid, const std::vector<Sam
         if (!accept(s.node)) continue;
         forEachElementOf(s, aloneDistance_[s.node], aloneFace_, [&](int e)
         {
-            if ((mesh_.isOwnedElement[e] || e < mesh_.nInnerElements) && firstVisit(elementMark_, e)) visit(e);
+            elementMark_[e] = mark_;
+            if (mesh_.isOwnedElement[e] || e < mesh_.nInnerElements) visit(e);
         });
     }
     for (const Sample& s : samples)
@@ -201,11 +223,14 @@ void CoverBuilder::visitCutAlone(const Solid& solid, int element, Visit visit) c
         distance[a] = aloneDistance_[nodesOf(element)[a]];
         if (distance[a] < 0) ++nSolid;
     }
+    if (*std::max_element(distance, distance + dim + 1) >= farDistance) return;
     const SimplexFacet<dim>* none = nullptr;
     if (nSolid == dim + 1) visit(SimplexMoments<dim>{}, none, 0);
     else if (isAtEdge(aloneFace_, element))
     {
-        const EdgeCut<dim> cut = cutAtEdge<dim>(solid, element);
+        const CuttingFaces<dim> faces = cuttingFaces<dim>(solid, element);
+        if (faces.isApart) return;
+        const EdgeCut<dim> cut = cutAtEdge<dim>(faces, element);
         visit(cut, cut.facets.data(), static_cast<int>(cut.facets.size()));
     }
     else if (nSolid > 0)

@@ -70,6 +70,7 @@ bool CoverBuilder::endsAtEdge(const Cover& cover, int element, int corner) const
 
 bool CoverBuilder::endsAtEdge(const Cover& cover, int element) const
 {
+    if (!isAtEdge(face_, element)) return false;
     for (int corner = 0; corner <= mesh_.dim; ++corner)
         if (endsAtEdge(cover, element, corner)) return true;
     return false;
@@ -86,52 +87,54 @@ std::array<double, (dim + 1) * dim> CoverBuilder::verticesOf(int element) const
 template std::array<double, 6> CoverBuilder::verticesOf<2>(int) const;
 template std::array<double, 12> CoverBuilder::verticesOf<3>(int) const;
 
-/// Of those of the solid's faces that do not have the whole element inside: distances at its nodes, into `cutting`; their number.
 template <int dim>
-int CoverBuilder::cuttingFaces(const Solid& solid, int element, double* cutting) const
+CoverBuilder::CuttingFaces<dim> CoverBuilder::cuttingFaces(const Solid& solid, int element) const
 {
-    double at[dim + 1][maxFaces];
-    int nFaces = 0, nCutting = 0;
-    for (int a = 0; a <= dim; ++a)
+    int rows[dim + 1];
+    const double* at[dim + 1];
+    for (int a = 0; a <= dim; ++a) rows[a] = nodeFaces_.find(nodesOf(element)[a], solid);
+    for (int a = 0; a <= dim; ++a) at[a] = nodeFaces_.distances(rows[a]);
+    CuttingFaces<dim> cutting;
+    for (int k = 0; k < nodeFaces_.nFaces(rows[0]); ++k)
     {
-        const auto x = mesh_.spacePoint(nodesOf(element)[a]);
-        nFaces = solid.faceDistances(Vec3(x[0], x[1], x[2]), at[a]);
-        film_.lift(nodesOf(element)[a], solid, nFaces, at[a]);
-    }
-    for (int k = 0; k < nFaces; ++k)
-    {
-        double* values = cutting + nCutting * (dim + 1);
-        bool isInside = true;
+        double* values = cutting.distances + cutting.n * (dim + 1);
+        int nInside = 0;
         for (int a = 0; a <= dim; ++a)
         {
-            values[a] = snapped(nodesOf(element)[a], at[a][k]);
-            isInside = isInside && values[a] < 0;
+            values[a] = at[a][k];
+            nInside += values[a] < 0;
         }
-        if (!isInside) ++nCutting;
+        if (nInside == 0) cutting.isApart = true;
+        if (nInside <= dim) ++cutting.n;
     }
-    return nCutting;
+    return cutting;
 }
+template CoverBuilder::CuttingFaces<2> CoverBuilder::cuttingFaces<2>(const Solid&, int) const;
+template CoverBuilder::CuttingFaces<3> CoverBuilder::cuttingFaces<3>(const Solid&, int) const;
 
 template <int dim>
-EdgeCut<dim> CoverBuilder::cutAtEdge(const Solid& solid, int element) const
+EdgeCut<dim> CoverBuilder::cutAtEdge(const CuttingFaces<dim>& faces, int element) const
 {
-    double cutting[maxFaces * (dim + 1)];
-    const int nCutting = cuttingFaces<dim>(solid, element, cutting);
-    return cutSimplexAtEdge<dim>(cutting, nCutting, mesh_.volume[element], verticesOf<dim>(element).data(), &mesh_.gradN[std::size_t(element) * (dim + 1) * dim]);
+    return cutSimplexAtEdge<dim>(faces.distances, faces.n, mesh_.volume[element], verticesOf<dim>(element).data(), &mesh_.gradN[std::size_t(element) * (dim + 1) * dim]);
 }
-template EdgeCut<2> CoverBuilder::cutAtEdge<2>(const Solid&, int) const;
-template EdgeCut<3> CoverBuilder::cutAtEdge<3>(const Solid&, int) const;
+template EdgeCut<2> CoverBuilder::cutAtEdge<2>(const CuttingFaces<2>&, int) const;
+template EdgeCut<3> CoverBuilder::cutAtEdge<3>(const CuttingFaces<3>&, int) const;
+
+template <int dim>
+void CoverBuilder::cutElementAtEdge(Cover& cover, const std::vector<Solid>& solids, int element, const double* distance) const
+{
+    cover.state[element] = ElementState::Fluid;
+    const CuttingFaces<dim> faces = cuttingFaces<dim>(solids[cover.nearestSolid[nodesOf(element)[0]]], element);
+    if (faces.isApart) return;
+    const EdgeCut<dim> cut = cutAtEdge<dim>(faces, element);
+    if (cut.facets.empty() && *std::min_element(distance, distance + dim + 1) > 0) return;
+    storeCut<dim>(cover, solids, element, cut, cut.facets.data(), static_cast<int>(cut.facets.size()));
+}
 
 template <int dim>
 void CoverBuilder::cutElementOf(Cover& cover, const std::vector<Solid>& solids, int element, const double* distance) const
 {
-    if (isAtEdgeOfOne(cover, element))
-    {
-        const EdgeCut<dim> cut = cutAtEdge<dim>(solids[cover.nearestSolid[nodesOf(element)[0]]], element);
-        if (cut.facets.empty() && *std::min_element(distance, distance + dim + 1) > 0) cover.state[element] = ElementState::Fluid;
-        else storeCut<dim>(cover, solids, element, cut, cut.facets.data(), static_cast<int>(cut.facets.size()));
-        return;
-    }
+    if (isAtEdgeOfOne(cover, element)) return cutElementAtEdge<dim>(cover, solids, element, distance);
     const bool isCut = *std::min_element(distance, distance + dim + 1) < 0;
     const SimplexCut<dim> cut = isCut ? cutSimplex<dim>(distance, mesh_.volume[element], verticesOf<dim>(element).data(), &mesh_.gradN[std::size_t(element) * (dim + 1) * dim])
                                       : wholeSimplex<dim>(mesh_.volume[element]);
@@ -150,11 +153,31 @@ void CoverBuilder::closeFaces(const Cover& cover, const std::vector<Solid>& soli
     {
         if (!endsAtEdge(cover, element, corner)) continue;
         const Solid& solid = solids[cover.nearestSolid[nodesOf(element)[corner == 0]]];
-        double inside[(maxFaces + 1) * (dim + 1)];
-        const int n = cuttingFaces<dim>(solid, element, inside);
-        for (int a = 0; a <= dim; ++a) inside[n * (dim + 1) + a] = -distance[a];
-        addFacePart<dim>(corner, inside, n + 1, mesh_.volume[element], verticesOf<dim>(element).data(), &mesh_.gradN[std::size_t(element) * (dim + 1) * dim], facets);
+        CuttingFaces<dim> faces = cuttingFaces<dim>(solid, element);
+        if (faces.isApart) continue;
+        for (int a = 0; a <= dim; ++a) faces.distances[faces.n * (dim + 1) + a] = -distance[a];
+        addFacePart<dim>(corner, faces.distances, faces.n + 1, mesh_.volume[element], verticesOf<dim>(element).data(), &mesh_.gradN[std::size_t(element) * (dim + 1) * dim], facets);
     }
+}
+
+void CoverBuilder::findClosedFaces(const Cover& cover)
+{
+    closedFaces_.clear();
+    for (const CutElement& cut : cover.cuts)
+        for (int corner = 0; corner <= mesh_.dim; ++corner)
+        {
+            if (!endsAtEdge(cover, cut.element, corner)) continue;
+            const InteriorFace& face = graph_.faces[elementFace_[std::size_t(cut.element) * (mesh_.dim + 1) + corner]];
+            closedFaces_.push_back({cut.element, face.opposite[face.element[0] == cut.element]});
+        }
+}
+
+/// What closes a face is of the cut beyond it: that is linear, too, where a moving solid is nearest to the node there, however far it is from the element itself.
+void CoverBuilder::addClosedFaces()
+{
+    for (const ClosedFace& closed : closedFaces_)
+        if (cover_.nearestSolid[closed.nodeBeyond] != fixedCover_.nearestSolid[closed.nodeBeyond] && firstVisit(elementMark_, closed.element))
+            touchedElements_.push_back(closed.element);
 }
 
 template <int dim>
@@ -219,12 +242,13 @@ int CoverBuilder::solidAt(const Cover& cover, const std::vector<Solid>& solids, 
     for (int a = 1; a <= mesh_.dim; ++a) isSame = isSame && cover.nearestSolid[nodes[a]] == nearest;
     if (isSame) return nearest;
 
+    const auto isOneOf = [&](int s, int n) { return std::any_of(nodes, nodes + n, [&](int i) { return cover.nearestSolid[i] == s; }); };
     const Vec3 x = pointIn(element, shape);
     double least = 2 * farDistance;
     for (int a = 0; a <= mesh_.dim; ++a)
     {
         const int s = cover.nearestSolid[nodes[a]];
-        if (s < 0) continue;
+        if (s < 0 || isOneOf(s, a)) continue;
         const double d = solids[s].distance(x);
         if (d < least || (d == least && s < nearest))
         {

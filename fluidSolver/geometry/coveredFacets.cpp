@@ -3,7 +3,6 @@
 #include "geometry/coverBuilder.hpp"
 
 #include <algorithm>
-#include <map>
 
 namespace flotsam
 {
@@ -13,11 +12,6 @@ void CoverBuilder::findCovered(Cover& cover, const std::vector<Solid>& solids)
 {
     cover.coveredFacets.clear();
     cover.coveredVolumes.clear();
-    std::map<int, CoveredVolume> volumes;
-    const auto volumeOf = [&](int e) -> CoveredVolume& { return volumes.try_emplace(e, CoveredVolume{e, {}, {}}).first->second; };
-    sharedCuts_.clear();
-    for (const CutElement& cut : cover.cuts)
-        if ((mesh_.isOwnedElement[cut.element] || cut.element < mesh_.nInnerElements) && isShared(cover, cover.nearestSolid[nodesOf(cut.element)[0]], cut.element)) sharedCuts_.push_back(cut.element);
     findSharedNodes(cover);
     for (std::size_t s = 0; s < solids.size(); ++s)
     {
@@ -28,22 +22,33 @@ void CoverBuilder::findCovered(Cover& cover, const std::vector<Solid>& solids)
         forEachElementAlone(solids[s], samples_[s], [&](int e)
         {
             if (!isShared(cover, solid, e)) return;
-            mesh_.dim == 2 ? addAlone<2>(cover, solids, solid, volumeOf(e)) : addAlone<3>(cover, solids, solid, volumeOf(e));
+            if (isBesideFixed(cover, solids, e)) coveredVolume(cover, e); // also without a part in it: the flow gives all the shares there to the fixed ones
+            mesh_.dim == 2 ? addAlone<2>(cover, solids, solid, e) : addAlone<3>(cover, solids, solid, e);
         }, [this](int node) { return isSharedNode_[node] != 0; });
     }
-    for (int e : sharedCuts_) subtractCut(cover, solids, e);
-    for (const CoveredFacet& facet : cover.coveredFacets) volumeOf(facet.element);
-    for (auto& [element, volume] : volumes)
+    for (const CutElement& cut : cover.cuts)
+        if ((mesh_.isOwnedElement[cut.element] || cut.element < mesh_.nInnerElements) && isShared(cover, cover.nearestSolid[nodesOf(cut.element)[0]], cut.element))
+            subtractCut(cover, solids, cut);
+    for (CoveredVolume& volume : cover.coveredVolumes)
     {
         subtractSolidPart(cover, volume);
-        cover.coveredVolumes.push_back(volume);
+        coveredVolumeOf_[volume.element] = -1;
     }
+}
+
+/// That of the element, a new one at first.
+CoveredVolume& CoverBuilder::coveredVolume(Cover& cover, int element)
+{
+    if (coveredVolumeOf_.empty()) coveredVolumeOf_.assign(mesh_.nElements, -1);
+    int& position = coveredVolumeOf_[element];
+    if (position >= 0) return cover.coveredVolumes[position];
+    position = static_cast<int>(cover.coveredVolumes.size());
+    return cover.coveredVolumes.emplace_back(CoveredVolume{element, {}});
 }
 
 /// Nodes of elements with nodes of several solids, among those that moving solids may cut: most of the elements around a body are its own.
 void CoverBuilder::findSharedNodes(const Cover& cover)
 {
-    isSharedNode_.resize(mesh_.nNodes);
     for (int i : sharedNodes_) isSharedNode_[i] = 0;
     sharedNodes_.clear();
     for (int e : touchedElements_)
@@ -65,39 +70,38 @@ bool CoverBuilder::isShared(const Cover& cover, int solid, int element) const
     return std::any_of(nodes, nodes + mesh_.dim + 1, [&](int i) { return cover.nearestSolid[i] != solid; });
 }
 
-/// area: positive for the solid alone; shape: shape functions at the quadrature points, of equal weights.
-void CoverBuilder::addCovered(Cover& cover, int solid, int element, double area, const double* normal, int nPoints, const double (*shape)[4]) const
+/// area: positive for the solid alone; shape: shape functions at the quadrature points, nCorners each.
+template <int nCorners>
+void CoverBuilder::addCovered(Cover& cover, int solid, int element, double area, const double* normal, int nPoints, const double (*shape)[nCorners]) const
 {
-    for (int q = 0; q < nPoints; ++q)
-    {
-        CoveredFacet& facet = cover.coveredFacets.emplace_back(CoveredFacet{element, solid, {}, {}});
-        for (int d = 0; d < mesh_.dim; ++d) facet.area[d] = area / nPoints * normal[d];
-        std::copy(shape[q], shape[q] + mesh_.dim + 1, facet.shape);
-    }
+    CoveredFacet& facet = cover.coveredFacets.emplace_back();
+    facet.element = element;
+    facet.solid = solid;
+    facet.nPoints = nPoints;
+    for (int d = 0; d < mesh_.dim; ++d) facet.area[d] = area / nPoints * normal[d];
+    for (int q = 0; q < nPoints; ++q) std::copy(shape[q], shape[q] + nCorners, facet.shape[q]);
 }
 
 template <int dim>
-void CoverBuilder::addAlone(Cover& cover, const std::vector<Solid>& solids, int solid, CoveredVolume& volume) const
+void CoverBuilder::addAlone(Cover& cover, const std::vector<Solid>& solids, int solid, int element)
 {
-    visitCutAlone<dim>(solids[solid], volume.element, [&](const SimplexMoments<dim>& fluid, const SimplexFacet<dim>* facets, int nFacets)
+    visitCutAlone<dim>(solids[solid], element, [&](const SimplexMoments<dim>& fluid, const SimplexFacet<dim>* facets, int nFacets)
     {
-        addSolidPart(1, fluid.first, fluid.second, volume);
-        for (int f = 0; f < nFacets; ++f)
-        {
-            double shape[3][4] = {};
-            for (int q = 0; q < dim; ++q) std::copy(facets[f].shape[q], facets[f].shape[q] + dim + 1, shape[q]);
-            addCovered(cover, solid, volume.element, facets[f].area, facets[f].normal, dim, shape);
-        }
+        addSolidPart(1, fluid.second, coveredVolume(cover, element));
+        for (int f = 0; f < nFacets; ++f) addCovered(cover, solid, element, facets[f].area, facets[f].normal, dim, facets[f].shape);
     });
 }
 
 /// What the cover has of the moving solids' surfaces.
-void CoverBuilder::subtractCut(Cover& cover, const std::vector<Solid>& solids, int element) const
+void CoverBuilder::subtractCut(Cover& cover, const std::vector<Solid>& solids, const CutElement& cut)
 {
-    const CutElement& cut = cover.cuts[cover.cutIndex[element]];
     for (int f = cut.facetStart; f < cut.facetEnd; ++f)
-        if (const CutFacet& facet = cover.facets[f]; solids[facet.solid].kind != Solid::Kind::Fixed)
-            addCovered(cover, facet.solid, element, -facet.area, facet.normal, facet.nPoints, facet.shape);
+    {
+        const CutFacet& facet = cover.facets[f];
+        if (solids[facet.solid].kind == Solid::Kind::Fixed) continue;
+        addCovered(cover, facet.solid, cut.element, -facet.area, facet.normal, facet.nPoints, facet.shape);
+        coveredVolume(cover, cut.element);
+    }
 }
 
 /// Of an element nearest to one solid alone, into which another reaches, it is what the one cuts out, which is not in the sum.
@@ -106,20 +110,17 @@ void CoverBuilder::subtractSolidPart(const Cover& cover, CoveredVolume& volume) 
     const double none[16] = {};
     const int e = volume.element;
     if (!isShared(cover, cover.nearestSolid[nodesOf(e)[0]], e)) return;
-    if (cover.state[e] == ElementState::Solid) addSolidPart(-1, none, none, volume);
-    else if (cover.state[e] == ElementState::Cut) addSolidPart(-1, cover.cuts[cover.cutIndex[e]].first, cover.cuts[cover.cutIndex[e]].second, volume);
+    if (cover.state[e] == ElementState::Solid) addSolidPart(-1, none, volume);
+    else if (cover.state[e] == ElementState::Cut) addSolidPart(-1, cover.cuts[cover.cutIndex[e]].second, volume);
 }
 
-/// first, second: moments of the fluid part.
-void CoverBuilder::addSolidPart(double sign, const double* first, const double* second, CoveredVolume& volume) const
+/// second: moments of the fluid part.
+void CoverBuilder::addSolidPart(double sign, const double* second, CoveredVolume& volume) const
 {
     const int n = mesh_.dim + 1;
-    const double share = mesh_.volume[volume.element] / n;
+    const double share = mesh_.volume[volume.element] / n / (n + 1);
     for (int a = 0; a < n; ++a)
-    {
-        volume.first[a] += sign * (share - first[a]);
-        for (int b = 0; b < n; ++b) volume.second[a * n + b] += sign * (share * (a == b ? 2 : 1) / (n + 1) - second[a * n + b]);
-    }
+        for (int b = 0; b < n; ++b) volume.second[a * n + b] += sign * (share * (a == b ? 2 : 1) - second[a * n + b]);
 }
 
 } // namespace flotsam

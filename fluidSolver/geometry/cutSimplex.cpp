@@ -8,6 +8,7 @@ namespace flotsam
 namespace
 {
 
+constexpr int usualFacets = 8;          // at an edge
 constexpr double justInside = -1e-300; // in place of zero: what is on a face is on the same side of it from both sides
 
 /// Follows the parts of one simplex through the faces of a body.
@@ -79,8 +80,6 @@ private:
         if (nPositive == 0) return cutPart(corners, partVolume, face + 1);
         if (nPositive == dim + 1) return addPart<dim>(result_, corners, partVolume, volume_);
         const SimplexDivision<dim> outside = divideSimplex<dim>(values);
-        for (double& v : values) v = -v;
-        const SimplexDivision<dim> inside = divideSimplex<dim>(values);
         Point part[dim + 1];
         for (int k = 0; k < outside.nParts; ++k)
         {
@@ -92,6 +91,9 @@ private:
             toElement(corners, outside.facets[k].corner, dim, part);
             cutFacet(part, distances_ + face * (dim + 1), face + 1);
         }
+        if (face + 1 == nFaces_) return; // the rest is inside of all
+        for (double& v : values) v = -v;
+        const SimplexDivision<dim> inside = divideSimplex<dim>(values);
         for (int k = 0; k < inside.nParts; ++k)
         {
             if (inside.parts[k].share * partVolume < negligiblePart * volume_) continue;
@@ -143,7 +145,10 @@ private:
     {
         SimplexFacet<dim> facet;
         if (!setFacet<dim>(facet, corners, volume_, vertices_)) return;
-        setDescent<dim>(facet.normal, own, gradN_);
+        if (own != ofNormal_) setDescent<dim>(normal_, own, gradN_);
+        ofNormal_ = own;
+        std::copy(normal_, normal_ + dim, facet.normal);
+        if (result_.facets.empty()) result_.facets.reserve(usualFacets);
         result_.facets.push_back(facet);
     }
 
@@ -152,6 +157,8 @@ private:
     double volume_;
     const double *vertices_, *gradN_;
     EdgeCut<dim> result_{};
+    const double* ofNormal_ = nullptr;  // function that normal_ is of: the pieces of a face follow each other
+    double normal_[dim];
 };
 
 } // namespace
@@ -166,7 +173,8 @@ SimplexCut<dim> cutSimplex(const double* distance, double volume, const double* 
     {
         SimplexFacet<dim>& facet = cut.facets[cut.nFacets];
         if (!setFacet<dim>(facet, division.facets[k].corner, volume, vertices)) continue;
-        setDescent<dim>(facet.normal, distance, gradN);
+        if (cut.nFacets == 0) setDescent<dim>(facet.normal, distance, gradN);
+        else std::copy(cut.facets[0].normal, cut.facets[0].normal + dim, facet.normal);
         ++cut.nFacets;
     }
     return cut;

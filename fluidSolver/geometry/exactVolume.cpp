@@ -95,6 +95,7 @@ void CoverBuilder::addAlone(OwnCut& own, const Solid& solid, int element) const
 CoverBuilder::OwnCut CoverBuilder::cutAlone(const Solid& solid, const std::vector<Sample>& samples)
 {
     OwnCut own;
+    nodeFaces_.clear(); // the offsets are others
     forEachElementAlone(solid, samples, [&](int e)
     {
         if (!mesh_.isOwnedElement[e]) return;

@@ -42,6 +42,15 @@ void addHalfFacets(const Cover& cover, int e, std::vector<CutFacet>& facets)
 
 } // namespace
 
+void keepForMean(const Cover& cover, Cover& kept)
+{
+    kept.state = cover.state;
+    kept.cutIndex = cover.cutIndex;
+    kept.cuts = cover.cuts;
+    kept.facets = cover.facets;
+    kept.isActiveNode = cover.isActiveNode;
+}
+
 void setMeanCover(const SimplexMesh& mesh, const Cover& start, const Cover& end, Cover& mean)
 {
     mean.state = end.state;

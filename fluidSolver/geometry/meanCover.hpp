@@ -7,6 +7,9 @@
 namespace flotsam
 {
 
+/// Copies what a step still reads of the cover at its start: states, cut elements, facets and active nodes. Not what bodies cover of each other, the largest part.
+void keepForMean(const Cover& cover, Cover& kept);
+
 /// Mean over the step of what is fluid: moments and facets of `start` and `end`, half each. Only states, cut elements, facets and active nodes
 /// are set. An element counts as whole only if it is at both times.
 void setMeanCover(const SimplexMesh& mesh, const Cover& start, const Cover& end, Cover& mean);

@@ -158,8 +158,8 @@ bool setFacet(SimplexFacet<dim>& facet, const SimplexPoint<dim>* corners, double
     double x[dim][dim];
     for (int i = 0; i < dim; ++i) toSpace<dim>(corners[i], vertices, x[i]);
     facet.area = facetArea(x);
-    const double size = dim == 3 ? std::cbrt(elementVolume * elementVolume) : std::sqrt(elementVolume);
-    if (facet.area < negligiblePart * size) return false;
+    const double a = facet.area / negligiblePart; // against the volume to the power (dim-1)/dim, without a root
+    if (dim == 3 ? a * a * a < elementVolume * elementVolume : a * a < elementVolume) return false;
 
     const double own = dim == 2 ? 0.5 * (1 + 1 / std::sqrt(3.0)) : 2.0 / 3;
     const double other = (1 - own) / (dim - 1);

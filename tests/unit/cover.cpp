@@ -5,6 +5,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -19,8 +20,10 @@ struct Scene
     NodeGraph graph;
     Halo halo;
 
-    Scene(int dim, int n, MPI_Comm comm = MPI_COMM_WORLD)
-        : mesh(makeBoxMesh(comm, dim, {n, n, n}, {-1, -1, -1}, {1, 1, 1}, 0.15, true)), graph(mesh), halo(mesh, comm)
+    Scene(int dim, int n, MPI_Comm comm = MPI_COMM_WORLD) : Scene(dim, std::array{n, n, n}, comm) {}
+
+    Scene(int dim, std::array<int, 3> n, MPI_Comm comm = MPI_COMM_WORLD)
+        : mesh(makeBoxMesh(comm, dim, n, {-1, -1, -1}, {1, 1, 1}, 0.15, true)), graph(mesh), halo(mesh, comm)
     {
     }
 };
@@ -311,6 +314,27 @@ TEST_CASE("the fluid's surface is closed around solids that touch, in every node
     }
 }
 
+// Of long elements, whose next ones are beyond reach of the body.
+TEST_CASE("the fluid's surface is closed around structures that touch while a body passes by")
+{
+    for (const int dim : {2, 3})
+    {
+        Scene scene(dim, dim == 2 ? std::array{8, 32, 1} : std::array{5, 15, 15});
+        for (int place = 0; place < 10; ++place)
+        {
+            CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+            std::vector<Solid> solids = {makeSolid(makeBox(Vec3::Zero(), {0.35, 0.36, 0.7}), {-0.08 - 0.02 * place, -0.03, 0.02}, Solid::Kind::Fixed),
+                makeSolid(makeBox(Vec3::Zero(), {0.35, 0.5, 0.7}), {-0.37, -0.4, 0}, Solid::Kind::Fixed), makeSolid(makeBox(Vec3::Zero(), {0.3, 0.3, 0.5}), {}, Solid::Kind::Free)};
+            for (int s = 0; s < 3; ++s) solids[s].pose.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(s == 0 ? -0.24 : 0.04, Vec3::UnitZ()));
+            for (int k = 0; k < 12; ++k)
+            {
+                solids[2].pose.position = {0.4 + 0.03 * k, 0.2 * std::sin(k) - 0.2, 0.1};
+                CHECK(largestHole(scene, builder.build(solids), 0.1) < 1e-12);
+            }
+        }
+    }
+}
+
 TEST_CASE("with what others cover of it every body's surface is closed")
 {
     for (const int dim : {2, 3})
@@ -345,8 +369,8 @@ TEST_CASE("with what others cover of it every body's surface is closed")
             for (const CoveredFacet& f : cover.coveredFacets)
             {
                 if (f.solid != int(s) || !scene.mesh.isOwnedElement[f.element]) continue;
-                add(f.element, f.shape, f.area);
-                covered += std::abs(f.area[0]);
+                for (int q = 0; q < f.nPoints; ++q) add(f.element, f.shape[q], f.area);
+                covered += f.nPoints * std::abs(f.area[0]);
             }
             scene.halo.sum(moments.data(), 12);
             covered = scene.halo.sum(covered);

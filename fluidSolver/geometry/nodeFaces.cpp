@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/nodeFaces.hpp"
+
+namespace flotsam
+{
+
+void NodeFaces::clear()
+{
+    for (const Row& row : rows_) position_[row.node] = -1;
+    rows_.clear();
+}
+
+int NodeFaces::find(int node, const Solid& solid)
+{
+    int& position = position_[node];
+    if (position >= 0 && rows_[position].solid == &solid) return position;
+    position = static_cast<int>(rows_.size());
+    evaluate(rows_.emplace_back(Row{&solid, node, 0, {}}));
+    return position;
+}
+
+void NodeFaces::evaluate(Row& row) const
+{
+    const auto x = mesh_.spacePoint(row.node);
+    row.nFaces = row.solid->faceDistances(Vec3(x[0], x[1], x[2]), row.distances);
+    film_.lift(row.node, *row.solid, row.nFaces, row.distances);
+    for (int k = 0; k < row.nFaces; ++k) row.distances[k] = snapped(row.distances[k], snap_[row.node]);
+}
+
+} // namespace flotsam

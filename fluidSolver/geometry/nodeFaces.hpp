@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Distances of the faces of solids at nodes, evaluated once: the many elements at an edge share them.
+#pragma once
+
+#include "geometry/wallFilm.hpp"
+
+#include <cmath>
+
+namespace flotsam
+{
+
+/// A node nearer to a surface than `snap` counts as solid.
+inline double snapped(double distance, double snap) { return std::abs(distance) < snap ? -snap : distance; }
+
+class NodeFaces
+{
+public:
+    /// Keeps references. snap: nNodes, distance that counts as solid [m].
+    NodeFaces(const SimplexMesh& mesh, const WallFilm& film, const std::vector<double>& snap)
+        : mesh_(mesh), film_(film), snap_(snap), position_(mesh.nNodes, -1) {}
+
+    /// To be called when solids have moved.
+    void clear();
+
+    /// Row of a solid at a node, valid until clear(). A node knows the row of the solid that was asked for last.
+    int find(int node, const Solid& solid);
+
+    /// As the cut sees them: Solid::faceDistances, off the walls, never 0. Valid until find().
+    const double* distances(int row) const { return rows_[row].distances; }
+    int nFaces(int row) const { return rows_[row].nFaces; }
+
+private:
+    struct Row { const Solid* solid; int node, nFaces; double distances[maxFaces]; };
+
+    void evaluate(Row& row) const;
+
+    const SimplexMesh& mesh_;
+    const WallFilm& film_;
+    const std::vector<double>& snap_;
+    std::vector<int> position_;     // nNodes: in rows_, -1: none
+    std::vector<Row> rows_;
+};
+
+} // namespace flotsam
