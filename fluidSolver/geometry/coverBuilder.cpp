@@ -186,13 +186,6 @@ bool CoverBuilder::isNear(const std::vector<double>& distance, int element) cons
     return std::all_of(nodes, nodes + mesh_.dim + 1, [&](int i) { return distance[i] < farDistance; });
 }
 
-bool CoverBuilder::isBesideFixed(const Cover& cover, const std::vector<Solid>& solids, int element) const
-{
-    const int* nodes = nodesOf(element);
-    const auto isFixed = [&](int s) { return s >= 0 && solids[s].kind == Solid::Kind::Fixed; };
-    return std::any_of(nodes, nodes + mesh_.dim + 1, [&](int i) { return isFixed(cover.nearestSolid[i]); });
-}
-
 bool CoverBuilder::isAtEdge(const std::vector<int>& face, int element) const
 {
     const int* nodes = nodesOf(element);
@@ -208,12 +201,11 @@ bool CoverBuilder::firstVisit(std::vector<int>& mark, int i) const
     return true;
 }
 
-/// Elements that the samples may have changed: those that the solid may cut, and cut ones whose distances changed. Beside fixed solids also some that it has no
-/// part in: see findCovered().
+/// Elements that the samples may have changed: those that the solid may cut, and cut ones whose distances changed.
 void CoverBuilder::addElementsOf(const Cover& cover, const std::vector<Solid>& solids, int solid, const std::vector<Sample>& samples)
 {
     const auto add = [this](int element) { if (firstVisit(elementMark_, element)) touchedElements_.push_back(element); };
-    const auto addNear = [&](int element) { if (isNear(cover.distance, element) || isBesideFixed(cover, solids, element)) add(element); };
+    const auto addNear = [&](int element) { if (isNear(cover.distance, element)) add(element); };
     for (const Sample& s : samples)
     {
         if (firstVisit(nodeMark_, s.node)) touchedNodes_.push_back(s.node);

@@ -112,7 +112,6 @@ private:
     double cutDistance(const Solid& solid, const Sample& sample) const;
     template <class Visit> void forEachElementOf(const Sample& sample, double distance, const std::vector<int>& face, Visit visit) const;
     bool isNear(const std::vector<double>& distance, int element) const;
-    bool isBesideFixed(const Cover& cover, const std::vector<Solid>& solids, int element) const;
     bool isAtEdge(const std::vector<int>& face, int element) const;
     void restoreFixedCover();
     void findClosedFaces(const Cover& cover);

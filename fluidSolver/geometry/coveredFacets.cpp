@@ -22,7 +22,6 @@ void CoverBuilder::findCovered(Cover& cover, const std::vector<Solid>& solids)
         forEachElementAlone(solids[s], samples_[s], [&](int e)
         {
             if (!isShared(cover, solid, e)) return;
-            if (isBesideFixed(cover, solids, e)) coveredVolume(cover, e); // also without a part in it: the flow gives all the shares there to the fixed ones
             mesh_.dim == 2 ? addAlone<2>(cover, solids, solid, e) : addAlone<3>(cover, solids, solid, e);
         }, [this](int node) { return isSharedNode_[node] != 0; });
     }
