@@ -11,7 +11,7 @@ OUR_PROGRAMS = ("flotsamFoam", "transportTable")
 
 
 def _buildFolder(root):
-    return os.environ.get("FLOTSAM_BUILD", os.path.join(os.path.dirname(root), "build"))
+    return os.path.abspath(os.environ.get("FLOTSAM_BUILD", os.path.join(os.path.dirname(root), "build"))) # runs have folders of their own
 
 
 def settings():
