@@ -57,9 +57,4 @@ def series(runs, file):
     axes[1, 1].plot(*driftwood.smooth(h.time, logged["contact"]), "C3", label="logs")
     axes[1, 1].plot(*driftwood.smooth(h.time, logged["contact"] + logged["water"]), "k", lw=0.8, label="both, with logs")
     axes[1, 1].set(ylabel="force along the channel [N]", xlabel="time [s]", title="pier, means over 0.1 s", ylim=(-3, None))
-    for axis in axes.ravel():
-        axis.grid(alpha=0.3)
-        axis.legend(fontsize=8)
-    figure.tight_layout()
-    figure.savefig(file, dpi=110)
-    plt.close(figure)
+    driftwood.saveSeries(figure, axes, file)

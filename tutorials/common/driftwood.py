@@ -125,3 +125,14 @@ def drawFlow(depths, discharges, forces, runs):
     discharges.plot(time, 1000 * inflow, "k:", label="in")
     depths.set(ylabel="water depth [cm]")
     discharges.set(ylabel="discharge [l/s]", title="discharge", ylim=(0, None))
+
+
+def saveSeries(figure, axes, file):
+    """Grid and legends for all axes; the picture."""
+    for axis in axes.ravel():
+        axis.grid(alpha=0.3)
+        if axis.get_legend_handles_labels()[0]:
+            axis.legend(fontsize=8)
+    figure.tight_layout()
+    figure.savefig(file, dpi=110)
+    figure.clear()

@@ -27,9 +27,4 @@ def series(run, file):
     for name, values in (("water", run["water"]), ("logs", run["contact"]), ("both", run["water"] + run["contact"])):
         axes[1, 1].plot(*driftwood.smooth(h.time, values), label=name)
     axes[1, 1].set(ylabel="force along the channel [N]", xlabel="time [s]", title="rack, means over 0.1 s")
-    for axis in axes.ravel():
-        axis.grid(alpha=0.3)
-        axis.legend(fontsize=8)
-    figure.tight_layout()
-    figure.savefig(file, dpi=110)
-    plt.close(figure)
+    driftwood.saveSeries(figure, axes, file)

@@ -58,10 +58,4 @@ def series(runs, file):
         for k, force in enumerate(forces):
             axis.plot(time, force, f"C{k}", label=f"pipe {k + 1}")
         axis.set(xlabel="time [s]", ylabel="force along the flume [N]", title=f"each pipe, {title}, with bars")
-    for axis in axes.ravel():
-        axis.grid(alpha=0.3)
-        if axis.get_legend_handles_labels()[0]:
-            axis.legend(fontsize=8)
-    figure.tight_layout()
-    figure.savefig(file, dpi=110)
-    plt.close(figure)
+    driftwood.saveSeries(figure, axes, file)
