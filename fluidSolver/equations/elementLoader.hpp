@@ -56,9 +56,11 @@ inline NodeInertia nodeInertia(int node, int dim, bool isFirstOrder, const FlowS
     const double now = nodal.rho[node], old = nodal.rhoOld[node], older = nodal.rhoOlder[node];
     const TimeScheme first = TimeScheme::bdf(1, step.time.dt, 0);
     const auto inertia = [&](const TimeScheme& t) { return 0.5*(t.c0*now - t.c1*old - t.c2*older); };
-    const bool isFirst = isFirstOrder || inertia(step.time) < leastInertia*inertia(first);
+    const auto rate = [&](const TimeScheme& t) { return t.c0*now + t.c1*old + t.c2*older; };
+    const bool isLeft = inertia(step.time) < leastInertia*inertia(first), isRefilled = rate(step.time) - rate(first) > inertia(step.time);
+    const bool isFirst = isFirstOrder || isLeft || isRefilled;
     const TimeScheme& t = isFirst ? first : step.time;
-    NodeInertia own{inertia(t), t.c0*now + t.c1*old + t.c2*older, {}, isFirst ? 0. : 1., isSteep(now, old, older)};
+    NodeInertia own{inertia(t), rate(t), {}, isFirst ? 0. : 1., isSteep(now, old, older)};
     for (int d = 0; d < dim; ++d)
     {
         const std::size_t k = std::size_t(node)*dim + d;
