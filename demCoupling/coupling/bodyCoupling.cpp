@@ -248,7 +248,7 @@ BodyState BodyCoupling::drifted(int b) const
 bool BodyCoupling::hasLightBodies() const
 {
     for (int b = 0; b < nBodies(); ++b)
-        if (inertia_.mayNeedFactor(b)) return true;
+        if (isThere(b) && inertia_.mayNeedFactor(b)) return true;
     return false;
 }
 

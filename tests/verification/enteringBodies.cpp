@@ -128,6 +128,25 @@ TEST_CASE("a body that comes in falls freely from its place, and neither liquid 
     CHECK(run->fluid().liquidVolume() == doctest::Approx(liquid).epsilon(1e-12));
 }
 
+TEST_CASE("a light body comes in as any other; until then the steps are those without light bodies")
+{
+    Tank tank;
+    BodyDefinition bar = makeBar("bar", 0.008);
+    bar.mass /= 60; // 10 kg/m3
+    bar.principalInertia /= 60;
+    const DemSetup dem = makeDem({bar});
+    const auto run = makeRun(tank, dem);
+    run->start(tank.rest(), true);
+    for (int k = 0; k < 2; ++k) REQUIRE(run->step(dt).isAccepted);
+    CHECK_FALSE(run->coupling()->hasLightBodies());
+    for (int k = 0; k < 3; ++k)
+    {
+        REQUIRE(run->step(dt).isAccepted);
+        CHECK(run->coupling()->hasLightBodies());
+        CHECK(run->records()[0].motion.velocity[1] == doctest::Approx(-g*(k + 1)*dt).epsilon(0.25)); // gas of a tenth of its density, and what it takes along
+    }
+}
+
 TEST_CASE("a step that fails when a body comes in leaves no trace")
 {
     Tank tank;
