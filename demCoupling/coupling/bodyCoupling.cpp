@@ -223,13 +223,7 @@ void BodyCoupling::takeOut(const std::vector<char>& bodies)
 void BodyCoupling::letIn(int body)
 {
     presence_[body] = Presence::There;
-    guarded([&]
-    {
-        engine_->setGone(areAway());
-        result_ = engine_->states();
-    });
-    shareResults();
-    smooth_->reset(body, states_[body] = result_[body]);
+    guarded([&] { engine_->setGone(areAway()); });
 }
 
 std::vector<char> BodyCoupling::areAway() const
@@ -254,7 +248,7 @@ BodyState BodyCoupling::drifted(int b) const
 bool BodyCoupling::hasLightBodies() const
 {
     for (int b = 0; b < nBodies(); ++b)
-        if (inertia_.mayNeedFactor(b)) return true;
+        if (isThere(b) && inertia_.mayNeedFactor(b)) return true;
     return false;
 }
 

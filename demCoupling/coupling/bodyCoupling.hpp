@@ -76,7 +76,7 @@ public:
     /// Beyond the mesh's bounding box by its diagonal: wherever it flies, it has left.
     bool isFarOff(int body) const;
 
-    /// Bodies so light that the engine may be given a factor of their mass (addedInertia.hpp).
+    /// Whether there are bodies so light that the engine may be given a factor of their mass (addedInertia.hpp).
     bool hasLightBodies() const;
     int repeats() const { return iteration_.repeats(); } ///< further solves needed in this step
     double mismatch() const { return iteration_.mismatch(); } ///< of the accepted contact, as CouplingControls::tolerance

@@ -2,6 +2,7 @@
 #include "demCoupling/coupling/entryCheck.hpp"
 
 #include <algorithm>
+#include <numeric>
 
 namespace flotsam
 {
@@ -11,6 +12,9 @@ namespace
 
 constexpr double wet = 0.01;            // alpha that counts as liquid
 constexpr double gapOfThickness = 0.05; // of bodies, that contact does not begin at once
+constexpr int halvings = 9;             // of an element, to an eighth of its length in 3D
+
+using Corners = std::array<Vec3, 4>;    // of an element, 2D: three
 
 double distanceOf(const BodyDefinition& body, const Pose& pose, const Vec3& x)
 {
@@ -33,11 +37,43 @@ double extent(const BodyDefinition& body)
     return radius;
 }
 
+double length(const Corners& x, std::array<int, 2> edge) { return (x[edge[0]] - x[edge[1]]).norm(); }
+
+std::array<int, 2> longestEdge(const Corners& x, int n)
+{
+    std::array<int, 2> longest{0, 1};
+    for (int a = 0; a < n; ++a)
+        for (int b = 0; b < a; ++b)
+            if (length(x, {a, b}) > length(x, longest)) longest = {a, b};
+    return longest;
+}
+
+/// Whether the body reaches into the element. Its distance changes no faster than the place: what that at the centre leaves open the halves answer; after
+/// the last of them: yes.
+bool reachesInto(const BodyDefinition& body, const Corners& x, int n, int halvingsLeft)
+{
+    const Vec3 centre = std::accumulate(x.begin(), x.begin() + n, Vec3(0, 0, 0))/n;
+    double size = 0;
+    for (int a = 0; a < n; ++a) size = std::max(size, (x[a] - centre).norm());
+    const double distance = distanceOf(body, body.pose, centre);
+    if (distance <= 0 || distance >= size || halvingsLeft == 0) return distance < size;
+    const std::array<int, 2> edge = longestEdge(x, n);
+    for (int end : edge)
+    {
+        Corners half = x;
+        half[end] = 0.5*(x[edge[0]] + x[edge[1]]);
+        if (reachesInto(body, half, n, halvingsLeft - 1)) return true;
+    }
+    return false;
+}
+
 } // namespace
 
 EntryCheck::EntryCheck(const SimplexMesh& mesh, const Halo& halo, const std::vector<BodyDefinition>& bodies)
 :   mesh_(mesh), halo_(halo), bodies_(bodies), nodes_(bodies.size())
-{}
+{
+    for (const BodyDefinition& body : bodies) extents_.push_back(extent(body));
+}
 
 std::string EntryCheck::obstacle(int body, const std::vector<double>& alpha, const std::vector<BodyState>& states, const std::vector<char>& isThere)
 {
@@ -51,27 +87,28 @@ bool EntryCheck::touches(int body, int other, const Pose& pose) const
 {
     const BodyDefinition &a = bodies_[body], &b = bodies_[other];
     const double gap = gapOfThickness*std::min(a.thinnest, b.thinnest);
-    if ((a.pose.position - pose.position).norm() > extent(a) + extent(b) + gap) return false;
+    if ((a.pose.position - pose.position).norm() > extents_[body] + extents_[other] + gap) return false;
     return std::min(gapOfSpheres(a, a.pose, b, pose), gapOfSpheres(b, pose, a, a.pose)) < gap;
 }
 
-/// Nodes of the elements that have one within the body or half an element from it.
+/// Nodes of the elements that the body reaches into, or that have a node within half an element from it.
 const std::vector<int>& EntryCheck::nodesAt(int body)
 {
     if (nodes_[body]) return *nodes_[body];
     const BodyDefinition& b = bodies_[body];
-    const double radius = extent(b);
+    const int n = mesh_.dim + 1;
     std::vector<int> nodes;
     for (int e = 0; e < mesh_.nElements; ++e)
     {
-        const int *first = &mesh_.elements[std::size_t(e)*(mesh_.dim + 1)], *last = first + mesh_.dim + 1;
-        const bool isNear = std::any_of(first, last, [&](int i)
-        {
-            const std::array<double, 3> p = mesh_.spacePoint(i);
-            const Vec3 x(p[0], p[1], p[2]);
-            return (x - b.pose.position).norm() < radius + mesh_.h[e] && distanceOf(b, b.pose, x) < 0.5*mesh_.h[e];
-        });
-        if (isNear) nodes.insert(nodes.end(), first, last);
+        const int *first = &mesh_.elements[std::size_t(e)*n], *last = first + n;
+        Corners x;
+        x.fill(Vec3::Zero());
+        for (int a = 0; a < n; ++a) x[a] = Vec3(mesh_.spacePoint(first[a]).data());
+        double farthest = mesh_.h[e];
+        for (int a = 1; a < n; ++a) farthest = std::max(farthest, (x[a] - x[0]).norm());
+        if ((x[0] - b.pose.position).norm() > extents_[body] + b.thinnest + farthest) continue;
+        const bool isNear = std::any_of(x.begin(), x.begin() + n, [&](const Vec3& p) { return distanceOf(b, b.pose, p) < 0.5*mesh_.h[e]; });
+        if (isNear || reachesInto(b, x, n, halvings)) nodes.insert(nodes.end(), first, last);
     }
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());

@@ -29,6 +29,7 @@ private:
     const SimplexMesh& mesh_;
     const Halo& halo_;
     std::vector<BodyDefinition> bodies_;
+    std::vector<double> extents_;                        // of their contact spheres, from the centre [m]
     std::vector<std::optional<std::vector<int>>> nodes_; // per body that has asked: of the elements that it would touch
 };
 

@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Bodies that leave the mesh are taken out where they left, for good, and one that is absent before its release comes in at its place: on one process and
+# Bodies that leave the mesh are taken out where they left, for good, and two that are absent before their release come in at one place: on one process and
 # on two, stopped and continued, and on another number of processes.
 . "$(dirname "$0")/support.sh"
 mkdir -p "$work" && cd "$work" || exit
@@ -11,15 +11,14 @@ makeJam one
 sed -i '/^structures$/,/^}$/d' one/constant/bodies
 sed -i '$d' one/constant/bodies
 cat >> one/constant/bodies << 'EOF'
-    late        // where the bars were
+    late        // where the bars were, the second when the first has made room
     {
         shape           { type box; size (0.02 0.1 0.02); }
         density         590;
         material        wood;
         velocity        (0.5 0 0);
-        position        (-0.0225 0 0.23);
         beforeRelease   absent;
-        releaseTime     0.25;
+        poses           ( { position (-0.0225 0 0.23); releaseTime 0.25; } { position (-0.0225 0 0.23); releaseTime 0.25; } );
     }
 }
 EOF
@@ -35,7 +34,9 @@ for ranks in 1 2; do
     (cd $case && solve $ranks) || exit
     setEntry $case.parts/system/controlDict endTime $stop
     (cd $case.parts && solve $ranks) || exit
-    cat $case.parts/log.{flotsamFoam,mpirun} 2> /dev/null | grep -q '1 of 4 bodies have not come in' || fail "no word about the body to come"
+    cat $case.parts/log.{flotsamFoam,mpirun} > parts.log 2> /dev/null
+    grep -q '5 free (2 come in at their release)' parts.log || fail "no word about the bodies to come"
+    grep -q '2 of 5 bodies have not come in' parts.log || fail "no word about the bodies that did not come"
     cp -r $case.parts $case.other
     setEntry $case.parts/system/controlDict endTime $end
     (cd $case.parts && solve $ranks) || exit
@@ -47,8 +48,9 @@ setEntry one.other/system/controlDict endTime $end
 setEntry two.other/system/controlDict endTime $end
 (cd one.other && quietly decomposePar -latestTime && solve 2) || exit
 (cd two.other && quietly reconstructPar -latestTime && rm -r processor* && solve 1) || exit
-grep -q '3 of 4 bodies have left the mesh' two.other/log.flotsamFoam || fail "no word about bodies that left"
-grep -q '^body late has come in' two.other/log.flotsamFoam || fail "no word about the body that came in"
+grep -q '3 of 5 bodies have left the mesh' two.other/log.flotsamFoam || fail "no word about bodies that left"
+grep -q '^body late.0 has come in' two.other/log.flotsamFoam || fail "no word about the body that came in"
+grep -q "^body late.1 is to come in, but there is body 'late.0' at its place: it waits" two.other/log.flotsamFoam || fail "no word about the body that waits"
 
 python - << 'PY' || exit
 import sys
@@ -59,16 +61,19 @@ import flotsam
 
 for case in ("one", "two", "one.parts", "two.parts", "one.other", "two.other"):
     history = flotsam.history(f"{case}/postProcessing/flotsam")
-    late = history["late"]
+    late, second = history["late.0"], history["late.1"]
     there = np.flatnonzero(late.awaited == 0)
     if not len(there) or late.awaited[there[0]:].any() or not 0.25 < history.time[there[0]] < 0.26:
         sys.exit(f"FAILED: {case}: the late bar has not come in at its release")
+    waits = np.flatnonzero(second.awaited == 0)
+    if not len(waits) or late.position[waits[0], 0] - late.position[0, 0] < 0.021 or late.position[waits[0] - 2, 0] - late.position[0, 0] > 0.021:
+        sys.exit(f"FAILED: {case}: the second late bar has not come in when its place was free")
     before = slice(0, there[0])
     if np.ptp(late.position[before], axis=0).any() or late.velocity[before].any() or late.fluidForce[before].any() or late.contacts[before].any():
         sys.exit(f"FAILED: {case}: the late bar was there before")
     if not late.velocity[there[0], 0] > 0.45 or not late.velocity[there[0], 2] < -0.01:
         sys.exit(f"FAILED: {case}: the late bar does not fly")
-    for name in (name for name in history.bodies if name != "late"):
+    for name in (name for name in history.bodies if not name.startswith("late")):
         body = history[name]
         left = np.flatnonzero(body.left > 0)
         if not len(left) or len(left) != len(body.left) - left[0]:

@@ -76,6 +76,10 @@ rm -rf tiny && cp -r good tiny
 setEntry tiny/system/controlDict maxBodyCo 1e-12
 (cd tiny && flotsamFoam) > tiny.log 2>&1 && fail "a time step below minDeltaT is accepted"
 grep -q 'limits the time step to [0-9.]*e-[0-9]* s .* minDeltaT .* 1e-09 s' tiny.log || fail "a time step below minDeltaT: no numbers"
+makeFallingSphere alone
+sed -i 's/density /beforeRelease absent; density /' alone/constant/bodies
+(cd alone && flotsamFoam -dry-run) > alone.log 2>&1 && fail "a body that comes in through one fluid is accepted"
+grep -q 'absent before its release .* no gas' alone.log || fail "a body that comes in through one fluid: no word"
 rm -rf misnamed && cp -r good misnamed && mv misnamed/constant/bodies misnamed/constant/bodiesDict
 (cd misnamed && quietly flotsamFoam -dry-run && grep -q 'constant/bodiesDict is not read' log.flotsamFoam) || fail "a misnamed constant/bodies is not mentioned"
 

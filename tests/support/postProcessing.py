@@ -125,6 +125,8 @@ class BodyHistory(unittest.TestCase):
         self.assertEqual(h["bar"].contacts.sum(), 51)
         np.testing.assert_allclose(flotsam.sumForce(h, ["bar", "post"])[-1], [1, 0, 2])
         np.testing.assert_allclose(flotsam.captured(h, lambda x: x[:, 0] > 0.5).sum(), 50)
+        np.testing.assert_allclose(flotsam.captured(h, lambda x: x[:, 0] < 0.5).sum(), 40)  # not before it has come in
+        np.testing.assert_array_equal(h.isThere("bar"), (np.arange(101) >= 10) & (np.arange(101) <= 80))
         np.testing.assert_allclose(h.run["dt"], 0.01)
         np.testing.assert_allclose(h.surface["time"], [0, 0.5, 1])
         np.testing.assert_allclose(h.surface["points"][8 + 1], [1.5, 0, 0])

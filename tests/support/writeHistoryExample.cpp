@@ -26,6 +26,8 @@ int main(int argc, char** argv)
         records[0].pose.position.x() = time;
         records[0].motion.velocity.x() = 1;
         records[0].contacts = i >= 50;
+        records[0].isAwaited = i < 10;
+        records[0].hasLeft = i > 80;
         records[1].fluidForce = Vec3(time, 0, 2);
         history.append(time, records, {{"dt", 0.01}});
         if (i % 50 == 0) history.writeSurface(time, records);

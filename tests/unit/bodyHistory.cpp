@@ -221,6 +221,35 @@ TEST_CASE("the surface moves with its member")
     CHECK(count(xdmf, "bodies.h5:/surface/points") == 2);
 }
 
+TEST_CASE("a body to come is marked, and its surface is a point at its place")
+{
+    const TemporaryFolder folder("historyAwaited");
+    const std::string file = folder / "bodies.h5";
+    {
+        BodyHistory history(file, members(), 0);
+        for (double t : {0.0, 1.0, 2.0})
+        {
+            std::vector<BodyRecord> records = recordsAt(t, 2);
+            records[0].isAwaited = t < 2;
+            records[1].hasLeft = t > 0;
+            history.append(t, records, {});
+            if (t > 0) history.writeSurface(t, records);
+        }
+    }
+    CHECK(read(file, "/bodies/bar0/awaited") == std::vector<double>{1, 1, 0});
+    CHECK(read(file, "/bodies/bar0/left") == std::vector<double>{0, 0, 0});
+    CHECK(read(file, "/structures/pipe/left") == std::vector<double>{0, 1, 1});
+    const auto points = read(file, "/surface/points"), velocity = read(file, "/surface/velocity");
+    for (int i = 0; i < 4; ++i)
+        for (int d = 0; d < 3; ++d)
+        {
+            CHECK(points.at(3 * i + d) == doctest::Approx(recordsAt(1, 2)[0].pose.position[d]));
+            CHECK(velocity.at(3 * i + d) == doctest::Approx(recordsAt(1, 2)[0].motion.velocity[d]));
+        }
+    const Vec3 first(points.data() + 3 * 8), second(points.data() + 3 * 9); // when it has come in
+    CHECK((second - first).norm() == doctest::Approx(1));
+}
+
 TEST_CASE("bad names and files are refused")
 {
     const TemporaryFolder folder("historyBad");

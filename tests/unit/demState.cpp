@@ -249,3 +249,27 @@ TEST_CASE("a body to come touches nothing, not even at its place; it comes in th
         other.advance(2e-3);
     CHECK(numbersOf(other) == numbersOf(engine));
 }
+
+TEST_CASE("bodies to come are not felt where they wait")
+{
+    std::vector<BodyDefinition> bars(60, debris(Vec3(0.5, 0.5, 0.1)));
+    for (size_t b = 0; b < bars.size(); ++b)
+    {
+        bars[b].name = "bar" + std::to_string(b);
+        bars[b].entersAtRelease = b > 0;
+    }
+    DemSetup setup = scene(bars, {plane(Vec3::Zero(), Vec3::UnitZ())});
+    setup.box = {Vec3(0.3, 0.3, -0.1), Vec3(0.7, 0.7, 0.3)}; // full of them
+    DemSetup ofOne = setup;
+    ofOne.bodies.resize(1);
+    LiggghtsEngine engine(setup), alone(ofOne);
+    engine.setLoads(weights(setup));
+    alone.setLoads(weights(ofOne));
+    for (int k = 0; k < 100; ++k)
+    {
+        engine.advance(2e-3);
+        alone.advance(2e-3);
+    }
+    CHECK(engine.contacts().size() == 1);
+    CHECK((engine.states()[0].pose.position - alone.states()[0].pose.position).norm() < 1e-12);
+}

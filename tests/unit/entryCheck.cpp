@@ -63,3 +63,54 @@ TEST_CASE("a place is free where there is neither liquid nor a body that is ther
     CHECK(obstacle(place + Vec3(length + 0.01, 0, 0)) == "");
     CHECK(obstacle(place + Vec3(0, 0.5*length, 0), 0.5*M_PI) == "body 'old'");  // its end in the middle
 }
+
+TEST_CASE("nodes beside the elements of the body count up to half an element from it")
+{
+    const SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, 3, {12, 8, 8}, {0, 0, 0}, {3, 2, 2}); // cubes of 0.25 m
+    const Halo halo(mesh, MPI_COMM_WORLD);
+    std::vector<double> alpha(mesh.nNodes);
+    for (int i = 0; i < mesh.nNodes; ++i) alpha[i] = mesh.spacePoint(i)[2] < 1.6;
+    const auto obstacle = [&](double bottom) // between 1.75 m and 2 m
+    {
+        const Vec3 place(1.5, 1, bottom + 0.5*thickness);
+        return EntryCheck(mesh, halo, {makeLog("log", place)}).obstacle(0, alpha, {at(place)}, {0});
+    };
+    CHECK(obstacle(1.75 + 0.12) == "liquid");
+    CHECK(obstacle(1.75 + 0.13) == "");
+}
+
+TEST_CASE("a body in another whose surface is far is seen, whichever of the two comes in")
+{
+    const SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, 3, {2, 2, 2}, {0, 0, 0}, {3, 2, 2});
+    const Halo halo(mesh, MPI_COMM_WORLD);
+    const Vec3 place(1.5, 1, 1);
+    BodyDefinition crumb = makeLog("crumb", place);
+    crumb.shape = makeSphere(Vec3::Zero(), 0.005);
+    crumb.thinnest = 0.01;
+    crumb.spheres = {{Vec3::Zero(), 0.005}};
+    const std::vector<double> alpha(mesh.nNodes, 0.0);
+    EntryCheck check(mesh, halo, {makeLog("log", place), crumb});
+    CHECK(check.obstacle(0, alpha, {at(place), at(place)}, {0, 1}) == "body 'crumb'");
+    CHECK(check.obstacle(1, alpha, {at(place), at(place)}, {1, 0}) == "body 'log'");
+}
+
+TEST_CASE("liquid around a body that is thinner than the elements, and far from their nodes, is seen")
+{
+    const std::array<int, 3> cells{2, 8, 8}; // 1 m x 0.25 m x 0.25 m
+    const SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, 3, cells, {0, 0, 0}, {2, 2, 2});
+    const Halo halo(mesh, MPI_COMM_WORLD);
+    for (double y : {1.1, 1.125, 1.14})
+        for (double x : {0.4, 0.5, 0.6})
+        {
+            BodyDefinition stick = makeLog("stick", Vec3(x, y, 1.125));
+            stick.shape = makeBox(Vec3::Zero(), Vec3(0.02, 0.02, 0.02));
+            stick.thinnest = 0.02;
+            stick.spheres = {{Vec3::Zero(), 0.01}};
+            EntryCheck check(mesh, halo, {stick});
+            std::vector<double> alpha(mesh.nNodes, 1.0);
+            const std::vector<BodyState> states{at(stick.pose.position)};
+            CHECK(check.obstacle(0, alpha, states, {0}) == "liquid");
+            for (int i = 0; i < mesh.nNodes; ++i) alpha[i] = mesh.spacePoint(i)[2] < 0.99;
+            CHECK(check.obstacle(0, alpha, states, {0}) == "");
+        }
+}

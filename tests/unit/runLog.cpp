@@ -137,6 +137,9 @@ TEST_CASE("the summary names phases, anomalies, mass balance and forces")
     s.wall[std::size_t(Phase::FlowSolve)] = 6;
     s.wall[std::size_t(Phase::Dem)] = 2;
     s.anomalies = {{"clipped alpha", 7}};
+    s.bodies = 12;
+    s.bodiesLeft = 3;
+    s.bodiesAwaited = 4;
     s.mass.initial = 1;
     s.mass.inflow = 0.5;
     s.mass.outflow = 0.25;
@@ -145,6 +148,6 @@ TEST_CASE("the summary names phases, anomalies, mass balance and forces")
     s.structures = {{"pipe1", {1, 2, 3}, {4, 5, 6}, 7, 8, 9}};
     const std::string text = RunLog::summary(s);
     MESSAGE(text);
-    for (const char* part : {"100 steps, 3 repeated", "75.0", "6.0000", "clipped alpha", "1e-09", "0.0321", "pipe1"}) CHECK(contains(text, part));
+    for (const char* part : {"100 steps, 3 repeated", "75.0", "6.0000", "clipped alpha", "4 of 12 bodies have not come in", "3 of 12 bodies have left", "1e-09", "0.0321", "pipe1"}) CHECK(contains(text, part));
     CHECK(s.mass.error() == doctest::Approx(1e-9));
 }

@@ -128,6 +128,63 @@ TEST_CASE("a body that comes in falls freely from its place, and neither liquid 
     CHECK(run->fluid().liquidVolume() == doctest::Approx(liquid).epsilon(1e-12));
 }
 
+TEST_CASE("a light body comes in as any other; until then the steps are those without light bodies")
+{
+    Tank tank;
+    BodyDefinition bar = makeBar("bar", 0.008);
+    bar.mass /= 60; // 10 kg/m3
+    bar.principalInertia /= 60;
+    const DemSetup dem = makeDem({bar});
+    const auto run = makeRun(tank, dem);
+    run->start(tank.rest(), true);
+    for (int k = 0; k < 2; ++k) REQUIRE(run->step(dt).isAccepted);
+    CHECK_FALSE(run->coupling()->hasLightBodies());
+    for (int k = 0; k < 3; ++k)
+    {
+        REQUIRE(run->step(dt).isAccepted);
+        CHECK(run->coupling()->hasLightBodies());
+        CHECK(run->records()[0].motion.velocity[1] == doctest::Approx(-g*(k + 1)*dt).epsilon(0.25)); // gas of a tenth of its density, and what it takes along
+    }
+}
+
+TEST_CASE("a step that fails when a body comes in leaves no trace")
+{
+    Tank tank;
+    BodyDefinition sunken = makeBar("sunken", 0, Vec3(0.8, 0.5*side - 1e-6, 0.5)); // on the floor
+    sunken.entersAtRelease = false;
+    sunken.mass *= 3;
+    sunken.principalInertia *= 3;
+    BodyDefinition waiting = makeBar("waiting", 0.02);
+    waiting.motion.velocity = Vec3(0, -100, 0);
+    const DemSetup dem = makeDem({makeBar("bar", 0.02), waiting, sunken});
+    const auto run = makeRun(tank, dem), direct = makeRun(tank, dem);
+    for (CoupledStep* r : {run.get(), direct.get()})
+    {
+        r->start(tank.rest(), true);
+        for (int k = 0; k < 5; ++k) REQUIRE(r->step(dt).isAccepted);
+    }
+    CHECK(run->bodyCourantRate() < 1); // of one that is not there nothing is felt
+    const std::vector<int> contacts = run->coupling()->wallContactCounts();
+    const Vec3 push = run->coupling()->wallLoads()[2].force;
+    REQUIRE(push[1] < 0);
+    const StepResult failed = run->step(0.2); // the bar would fall by five elements
+    REQUIRE_FALSE(failed.isAccepted);
+    CHECK(failed.failure.find("body 'bar' ends more than") != std::string::npos);
+    CHECK(failed.waiting.empty());
+    CHECK(run->coupling()->wallContactCounts() == contacts);
+    CHECK(run->coupling()->wallLoads()[2].force == push);
+    for (CoupledStep* r : {run.get(), direct.get()}) r->forgetUnwritten(); // a failed step forgets the preconditioner
+    for (int k = 0; k < 5; ++k)
+    {
+        const StepResult again = run->step(dt), first = direct->step(dt);
+        REQUIRE(again.isAccepted);
+        CHECK(again.waiting == first.waiting);
+        CHECK(again.waiting.size() == (k == 0));
+        CHECK(run->save() == direct->save());
+        CHECK(run->fluid().state().u == direct->fluid().state().u);
+    }
+}
+
 TEST_CASE("one place serves many: each waits until it is free; one whose place is in the water does not come; a restart goes on with the same bits")
 {
     Tank tank;

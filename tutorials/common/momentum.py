@@ -51,9 +51,10 @@ def wallForce(h):
 def gainOfBodies(h, reach, start, end):
     """Momentum along the channel that the bodies gain between the sections from `start` to `end` [kg m/s]."""
     gain = 0.0
-    for body in (h["bodies/" + n] for n in h.bodies):
+    for name in h.bodies:
+        body = h["bodies/" + name]
         x = body.position[:, 0]
-        inside = np.flatnonzero((h.time >= start) & (h.time <= end) & (x > reach.begin) & (x < reach.end))
+        inside = np.flatnonzero(h.isThere("bodies/" + name) & (h.time >= start) & (h.time <= end) & (x > reach.begin) & (x < reach.end))
         if len(inside):
             gain += body.mass * (body.velocity[inside[-1], 0] - body.velocity[inside[0], 0])
     return gain
@@ -66,7 +67,7 @@ def forceOnStructures(case, h, reach, times):
     up, down = ([_throughSection(case, t, x, reach) for t in times] for x in (reach.begin, reach.end))
     mass, momentum = np.array([_between(case, t, reach) for t in times]).T
     downSlope = GRAVITY * np.sin(np.arctan(reach.slope))
-    bodies = sum(h["bodies/" + n].mass for n in h.bodies if reach.begin < h["bodies/" + n].position[-1, 0] < reach.end)
+    bodies = sum(h["bodies/" + n].mass for n in h.bodies if h.isThere("bodies/" + n)[-1] and reach.begin < h["bodies/" + n].position[-1, 0] < reach.end)
     chosen = (h.time > times[0]) & (h.time <= times[-1] + 1e-9)
     held = wallForce(h)[chosen].mean() if h.bodies else 0.0
     change = (momentum[-1] - momentum[0]) / (times[-1] - times[0])
