@@ -10,6 +10,7 @@ flotsam_test(viscousForce unit SOURCES unit/viscousForce.cpp LIBRARIES flotsam_e
 flotsam_test(openBoundary unit SOURCES unit/openBoundary.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(profileKeeping unit SOURCES unit/profileKeeping.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(slipNormals unit SOURCES unit/slipNormals.cpp LIBRARIES flotsam_equations)
+flotsam_test(nodeInertia unit SOURCES unit/nodeInertia.cpp LIBRARIES flotsam_transport_support)
 flotsam_test(elementLanes unit SOURCES unit/elementLanes.cpp LIBRARIES flotsam_transport_support)
 target_compile_options(test_elementLanes PRIVATE -Wno-psabi)
 flotsam_test(gasDepth verification SOURCES verification/gasDepth.cpp

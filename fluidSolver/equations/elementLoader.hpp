@@ -50,6 +50,10 @@ inline bool isSteep(double now, double old, double older)
 /// Share of the first order inertia below which a node's own of second order is not used: nodes that have just lost their liquid.
 constexpr double leastInertia = 0.5;
 
+/// Beyond first order a rate of mass is balanced by the last step's fluxes alone. Where these are not known (beside moving solids, of elements in which the density did
+/// not vary then) it is taken from the neighbours (removeMassDefect()), which must be less than the node's own inertia: nodes that have lost their liquid and get it
+/// back in the next step would be moved by a multiple of their neighbours' velocity, and several of them together at any speed.
+
 /// isFirstOrder: whatever the step is.
 inline NodeInertia nodeInertia(int node, int dim, bool isFirstOrder, const FlowStepData& step, const NodalData& nodal)
 {
@@ -57,8 +61,8 @@ inline NodeInertia nodeInertia(int node, int dim, bool isFirstOrder, const FlowS
     const TimeScheme first = TimeScheme::bdf(1, step.time.dt, 0);
     const auto inertia = [&](const TimeScheme& t) { return 0.5*(t.c0*now - t.c1*old - t.c2*older); };
     const auto rate = [&](const TimeScheme& t) { return t.c0*now + t.c1*old + t.c2*older; };
-    const bool isLeft = inertia(step.time) < leastInertia*inertia(first), isRefilled = rate(step.time) - rate(first) > inertia(step.time);
-    const bool isFirst = isFirstOrder || isLeft || isRefilled;
+    const bool isEmptied = inertia(step.time) < leastInertia*inertia(first), isRefilled = rate(step.time) - rate(first) > inertia(step.time);
+    const bool isFirst = isFirstOrder || isEmptied || isRefilled;
     const TimeScheme& t = isFirst ? first : step.time;
     NodeInertia own{inertia(t), rate(t), {}, isFirst ? 0. : 1., isSteep(now, old, older)};
     for (int d = 0; d < dim; ++d)
