@@ -98,6 +98,7 @@ void FlowEquation::applyPockets(std::vector<double>& x) const
 /// Nodes through whose faces liquid enters under a given pressure. What the skew-symmetric convection leaves out there makes that pressure the total one,
 /// p + rho (u.n) u/2 = p0: the unknown is the static pressure, lower by rho u^2/2. Held at p0 it would contradict the momentum by the dynamic pressure, which
 /// then goes into the first elements. It is left to the equations; p0 acts in the boundary term alone (addOpenFace). For gas that is too little to matter.
+/// Not in solids that stick out of the mesh: no equation has a pressure there, and what the start of each solve extrapolates would run away.
 void FlowEquation::findWeakPressures()
 {
     const int dim = mesh_.dim;
@@ -119,8 +120,8 @@ void FlowEquation::findWeakPressures()
         }
     }
     halo_.update(entering_, 1);      // second-ring copies do not see all of their faces
-    for (int i = 0; i < mesh_.nNodes; ++i)
-        isPressureWeak_[i] = entering_[i] > 0 && (!fluid_.isTwoPhase || step_.state->alpha[i] > 0.5);
+    const auto isLiquid = [this](int i) { return (!fluid_.isTwoPhase || step_.state->alpha[i] > 0.5) && !(step_.cover && step_.cover->distance[i] < 0); };
+    for (int i = 0; i < mesh_.nNodes; ++i) isPressureWeak_[i] = entering_[i] > 0 && isLiquid(i);
 }
 
 /// By patches, at the edge of gas that is left out, in shut pockets.

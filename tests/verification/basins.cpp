@@ -213,3 +213,42 @@ TEST_CASE("one basin with a pressure from a boundary, one without")
         CHECK(run.records()[0].fluidForce[0] == doctest::Approx(-tank.fluid.pRefValue).epsilon(1e-3));
     }
 }
+
+TEST_CASE("in a solid that moves in through a boundary of given pressure that pressure stays")
+{
+    usePetsc();
+    static constexpr double given = 500, half = 0.15, pushed = 0.2;
+    const SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, 2, {20, 20, 1}, {0, 0, 0}, {1, 1, 1});
+    const Halo halo(mesh, MPI_COMM_WORLD);
+    std::vector<BoundaryPatch> patches;
+    for (int p = 0; p < 4; ++p) patches.push_back(makePatch(mesh, p, p < 2 ? BoundaryPatch::Velocity::Open : BoundaryPatch::Velocity::Slip));
+    patches[0].evaluate = [free = patches[0].evaluate](const BoundaryState& state, PatchValues& values)
+    {
+        free(state, values);
+        values.pressure.assign(values.pressure.size(), given);
+    };
+    SceneStructure ram;
+    ram.solid.shape = makeBox(Vec3::Zero(), Vec3(0.6, 2*half, 1));
+    ram.solid.pose.position = Vec3(0, 0.5, 0.5);
+    ram.solid.kind = Solid::Kind::Prescribed;
+    ram.motion = [](double time, Pose& pose, Motion& motion)
+    {
+        pose.position = Vec3(pushed*time, 0.5, 0.5);
+        motion.velocity = Vec3(pushed, 0, 0);
+    };
+    PhaseTimers timers;
+    NumericsControls controls;
+    CoupledStep run(mesh, halo, oneFluid(1000, 1e-3), controls, patches, Scene({ram}, {}, Vec3::Zero()), nullptr, timers);
+    run.start(restState(mesh), false);
+    for (int k = 0; k < 10; ++k) REQUIRE(run.step(0.01).isAccepted);
+    int inside = 0;
+    double off = 0;
+    for (int i : nodesOf(mesh.patches[0]))
+    {
+        if (std::abs(mesh.x[2*std::size_t(i) + 1] - 0.5) > half - 1e-9) continue;
+        ++inside;
+        off = std::max(off, std::abs(run.fluid().state().p[i] - given));
+    }
+    CHECK(halo.any(inside > 0));
+    CHECK(off < 1e-9*given);
+}
