@@ -10,4 +10,5 @@ flotsam_test(foamBoundary unit SOURCES unit/foamBoundary.C LIBRARIES flotsam_foa
 flotsam_test(foamFields unit SOURCES unit/foamFields.C LIBRARIES flotsam_foam_test RANKS 1 2)
 flotsam_test(foamWriteTimes unit SOURCES unit/foamWriteTimes.C LIBRARIES flotsam_foam_test)
 flotsam_test(foamBodies unit SOURCES unit/foamBodies.C LIBRARIES flotsam_foam_test flotsam_dem_foam RANKS 1 2)
+flotsam_test(foamBodiesMessages unit SOURCES unit/foamBodiesMessages.C LIBRARIES flotsam_foam_test flotsam_dem_foam RANKS 1 2)
 flotsam_test(foamCaseCheck unit SOURCES unit/foamCaseCheck.C LIBRARIES flotsam_foam_test)

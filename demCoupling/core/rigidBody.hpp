@@ -4,6 +4,7 @@
 
 #include "geometry/solid.hpp"
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +44,14 @@ struct BodyDefinition
     int planeAxis = 2;                      ///< normal of that plane
     double thinnest = 0;                    ///< smallest extent [m] (2D: in the plane), of a union that of its thinnest part
 };
+
+/// Of the sphere about a body's centre of mass that holds all of its contact spheres [m].
+inline double outerRadius(const BodyDefinition& body)
+{
+    double radius = 0;
+    for (const SurfaceSphere& s : body.spheres) radius = std::max(radius, s.centre.norm() + s.radius);
+    return radius;
+}
 
 /// A structure the bodies can touch. Fixed, or moving as prescribed (then only spheres/planes as the engine can).
 struct WallDefinition

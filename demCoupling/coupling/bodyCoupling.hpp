@@ -71,6 +71,7 @@ public:
     void letIn(int body);
     Presence presence(int body) const { return presence_[body]; }
     bool isThere(int body) const { return presence_[body] == Presence::There; }
+    std::vector<char> areAway() const;  ///< per body: has left, or is to come
     int count(Presence p) const { return int(std::count(presence_.begin(), presence_.end(), p)); }
     bool isDue(int body, double time) const { return time >= setup_.bodies[body].releaseTime - 1e-9; }
     /// Beyond the mesh's bounding box by its diagonal: wherever it flies, it has left.
@@ -92,7 +93,6 @@ private:
     void shareResults();
     BodyState drifted(int body) const;
     void hold(const std::vector<char>& isHeld);
-    std::vector<char> areAway() const;
     void guarded(const std::function<void()>& work) const;
 
     DemSetup setup_;

@@ -30,13 +30,6 @@ double gapOfSpheres(const BodyDefinition& a, const Pose& poseOfA, const BodyDefi
     return gap;
 }
 
-double extent(const BodyDefinition& body)
-{
-    double radius = 0;
-    for (const SurfaceSphere& s : body.spheres) radius = std::max(radius, s.centre.norm() + s.radius);
-    return radius;
-}
-
 double length(const Corners& x, std::array<int, 2> edge) { return (x[edge[0]] - x[edge[1]]).norm(); }
 
 std::array<int, 2> longestEdge(const Corners& x, int n)
@@ -72,13 +65,13 @@ bool reachesInto(const BodyDefinition& body, const Corners& x, int n, int halvin
 EntryCheck::EntryCheck(const SimplexMesh& mesh, const Halo& halo, const std::vector<BodyDefinition>& bodies)
 :   mesh_(mesh), halo_(halo), bodies_(bodies), nodes_(bodies.size())
 {
-    for (const BodyDefinition& body : bodies) extents_.push_back(extent(body));
+    for (const BodyDefinition& body : bodies) extents_.push_back(outerRadius(body));
 }
 
-std::string EntryCheck::obstacle(int body, const std::vector<double>& alpha, const std::vector<BodyState>& states, const std::vector<char>& isThere)
+std::string EntryCheck::obstacle(int body, const std::vector<double>& alpha, const std::vector<BodyState>& states, const std::vector<char>& isAway)
 {
     for (int other = 0; other < int(bodies_.size()); ++other)
-        if (other != body && isThere[other] && touches(body, other, states[other].pose)) return "body '" + bodies_[other].name + "'";
+        if (other != body && !isAway[other] && touches(body, other, states[other].pose)) return "body '" + bodies_[other].name + "'";
     const std::vector<int>& nodes = nodesAt(body);
     return halo_.any(std::any_of(nodes.begin(), nodes.end(), [&](int i) { return alpha[i] > wet; })) ? "liquid" : "";
 }

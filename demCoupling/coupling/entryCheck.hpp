@@ -19,8 +19,8 @@ public:
     EntryCheck(const SimplexMesh& mesh, const Halo& halo, const std::vector<BodyDefinition>& bodies);
 
     /// What is in the way of `body` at the pose of its definition, in words; empty: nothing. alpha: of all nodes, liquid 1; states: of all bodies,
-    /// of which those marked in isThere count. Collective; every rank gives the same.
-    std::string obstacle(int body, const std::vector<double>& alpha, const std::vector<BodyState>& states, const std::vector<char>& isThere);
+    /// of which those marked in isAway do not count. Collective; every rank gives the same.
+    std::string obstacle(int body, const std::vector<double>& alpha, const std::vector<BodyState>& states, const std::vector<char>& isAway);
 
 private:
     bool touches(int body, int other, const Pose& pose) const;

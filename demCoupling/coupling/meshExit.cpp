@@ -48,12 +48,7 @@ Box boxOf(const SimplexMesh& mesh, int element)
 MeshExit::MeshExit(const SimplexMesh& mesh, const Halo& halo, const std::vector<BodyDefinition>& bodies, const Vec3& gravity)
 :   mesh_(mesh), halo_(halo), bodies_(bodies)
 {
-    for (const BodyDefinition& body : bodies)
-    {
-        double extent = 0;
-        for (const SurfaceSphere& s : body.spheres) extent = std::max(extent, s.centre.norm() + s.radius);
-        extents_.push_back(extent);
-    }
+    for (const BodyDefinition& body : bodies) extents_.push_back(outerRadius(body));
     double strongest = 0;
     for (int d = 0; d < mesh.dim; ++d)
     {

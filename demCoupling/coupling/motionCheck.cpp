@@ -31,13 +31,9 @@ MotionCheck::MotionCheck(const std::vector<BodyDefinition>& bodies, const std::v
 {
     for (const BodyDefinition& body : bodies)
     {
-        double extent = 0, radius = 0;
-        for (const SurfaceSphere& s : body.spheres)
-        {
-            extent = std::max(extent, s.centre.norm() + s.radius);
-            radius = std::max(radius, s.radius);
-        }
-        extents_.push_back(extent);
+        double radius = 0;
+        for (const SurfaceSphere& s : body.spheres) radius = std::max(radius, s.radius);
+        extents_.push_back(outerRadius(body));
         largestRadius_.push_back(radius);
     }
     for (const WallDefinition& wall : walls)

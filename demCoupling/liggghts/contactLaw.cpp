@@ -149,12 +149,10 @@ double stiffestMode(const BodyDefinition& body, const std::vector<Vec3>& points,
 /// Contact points of the spheres that touch the plane of normal +-axis, in the body frame.
 std::vector<Vec3> facePoints(const BodyDefinition& body, int axis, double sign)
 {
-    double top = -1e300, extent = 0;
+    const double extent = outerRadius(body);
+    double top = -1e300;
     for (const SurfaceSphere& s : body.spheres)
-    {
         top = std::max(top, sign * s.centre[axis] + s.radius);
-        extent = std::max(extent, s.centre.norm() + s.radius);
-    }
     std::vector<Vec3> points;
     for (const SurfaceSphere& s : body.spheres)
         if (sign * s.centre[axis] + s.radius > top - 1e-6 * std::max(1.0, extent))

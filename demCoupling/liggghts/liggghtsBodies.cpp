@@ -81,14 +81,13 @@ int insertBody(LiggghtsModel& model, const BodyDefinition& body, int contactClas
     // LIGGGHTS' density and volume are informative only; their product must be the mass
     particle.volume_ins = body.volume > 0 ? body.volume : body.mass;
     particle.density_ins = body.mass / particle.volume_ins;
-    particle.r_bound_ins = 0;
+    particle.r_bound_ins = outerRadius(body);
     for (int s = 0; s < n; ++s)
     {
         const SurfaceSphere& sphere = body.spheres[static_cast<size_t>(s)];
         particle.radius_ins[s] = sphere.radius;
         particle.volumeweight[s] = 1.0 / n;
         copy(sphere.centre, particle.displace[s]);
-        particle.r_bound_ins = std::max(particle.r_bound_ins, sphere.centre.norm() + sphere.radius);
     }
     copy(body.principalInertia, particle.inertia);
     copy(Vec3::Zero(), particle.xcm_to_xbound);

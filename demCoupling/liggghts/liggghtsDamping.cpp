@@ -36,8 +36,7 @@ SphereDamping::SphereDamping(LiggghtsModel& model, const DemSetup& setup)
     : model_(model), extents_(setup.bodies.size()), margins_(setup.bodies.size()), partners_(setup.bodies.size())
 {
     for (size_t b = 0; b < setup.bodies.size(); ++b)
-        for (const SurfaceSphere& s : setup.bodies[b].spheres)
-            extents_[b] = std::max(extents_[b], s.centre.norm() + s.radius);
+        extents_[b] = outerRadius(setup.bodies[b]);
 }
 
 void SphereDamping::startSteps(double step)

@@ -50,11 +50,10 @@ inline bool isSteep(double now, double old, double older)
 /// Share of the first order inertia below which a node's own of second order is not used: nodes that have just lost their liquid.
 constexpr double leastInertia = 0.5;
 
-/// Beyond first order a rate of mass is balanced by the last step's fluxes alone. Where these are not known (beside moving solids, of elements in which the density did
-/// not vary then) it is taken from the neighbours (removeMassDefect()), which must be less than the node's own inertia: nodes that have lost their liquid and get it
-/// back in the next step would be moved by a multiple of their neighbours' velocity, and several of them together at any speed.
-
-/// isFirstOrder: whatever the step is.
+/// Of first order where second order leaves too little inertia, and where its rate of mass exceeds first order's by more than the inertia. That difference is balanced by
+/// the last step's fluxes alone; where these are not known (beside moving solids, of elements in which the density did not vary then) it is taken from the neighbours
+/// (removeMassDefect()): nodes that have lost their liquid and get it back in the next step would be moved by a multiple of their neighbours' velocity, and several of
+/// them together at any speed. isFirstOrder: whatever the step is.
 inline NodeInertia nodeInertia(int node, int dim, bool isFirstOrder, const FlowStepData& step, const NodalData& nodal)
 {
     const double now = nodal.rho[node], old = nodal.rhoOld[node], older = nodal.rhoOlder[node];

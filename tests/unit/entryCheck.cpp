@@ -42,7 +42,7 @@ TEST_CASE("a place is free where there is neither liquid nor a body that is ther
     EntryCheck check(mesh, halo, {makeLog("new", place), makeLog("old", Vec3(9, 9, 9))});
     std::vector<double> alpha(mesh.nNodes);
     const auto fill = [&](double level) { for (int i = 0; i < mesh.nNodes; ++i) alpha[i] = mesh.spacePoint(i)[2] <= level; };
-    const auto obstacle = [&](const Vec3& other, double yaw = 0, bool isThere = true) { return check.obstacle(0, alpha, {at(place), at(other, yaw)}, {0, isThere}); };
+    const auto obstacle = [&](const Vec3& other, double yaw = 0, bool isAway = false) { return check.obstacle(0, alpha, {at(place), at(other, yaw)}, {0, isAway}); };
     const Vec3 away(0.4, 0.4, 1.5);
 
     fill(1.01);
@@ -56,7 +56,7 @@ TEST_CASE("a place is free where there is neither liquid nor a body that is ther
 
     fill(0.5);
     CHECK(obstacle(place) == "body 'old'");
-    CHECK(obstacle(place, 0, false) == "");
+    CHECK(obstacle(place, 0, true) == "");
     CHECK(obstacle(place + Vec3(0, 0, thickness + 0.004)) == "body 'old'"); // would touch at once
     CHECK(obstacle(place + Vec3(0, 0, thickness + 0.006)) == "");
     CHECK(obstacle(place + Vec3(0, 0, thickness - 0.01), 0.5*M_PI) == "body 'old'"); // across
@@ -90,8 +90,8 @@ TEST_CASE("a body in another whose surface is far is seen, whichever of the two 
     crumb.spheres = {{Vec3::Zero(), 0.005}};
     const std::vector<double> alpha(mesh.nNodes, 0.0);
     EntryCheck check(mesh, halo, {makeLog("log", place), crumb});
-    CHECK(check.obstacle(0, alpha, {at(place), at(place)}, {0, 1}) == "body 'crumb'");
-    CHECK(check.obstacle(1, alpha, {at(place), at(place)}, {1, 0}) == "body 'log'");
+    CHECK(check.obstacle(0, alpha, {at(place), at(place)}, {1, 0}) == "body 'crumb'");
+    CHECK(check.obstacle(1, alpha, {at(place), at(place)}, {0, 1}) == "body 'log'");
 }
 
 TEST_CASE("liquid around a body that is thinner than the elements, and far from their nodes, is seen")

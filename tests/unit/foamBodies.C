@@ -1,61 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// constant/bodies: shapes, mass and inertia, members, placement, walls, and one message for every mistake.
-#include "demCoupling/foam/bodiesReader.H"
+/// constant/bodies: shapes, mass and inertia, members, placement, walls.
 #include "demCoupling/foam/bodyPlacement.hpp"
-#include "demCoupling/foam/repeatedGroups.hpp"
 #include "demCoupling/foam/structureChecks.H"
-#include "foam/controlsReader.H"
-#include "support/foamCase.H"
+#include "support/bodiesScene.H"
 
 #include <doctest/doctest.h>
 
-#include <mpi.h>
-
 #include <cmath>
-#include <fstream>
 
 using namespace flotsam;
 
-namespace
-{
-
-/// 2 m x 1 m x 0.4 m with walls below, in front and behind; y is up. 2D: one layer of 0.1 m.
-struct Scene
-{
-    FoamCase foam;
-    MeshAdapter adapter;
-    Halo halo;
-    explicit Scene(bool is3d = true)
-    :
-        foam("foamChannel", edits(is3d), is3d ? "blockMeshDict3d" : "blockMeshDict"), adapter(makeSimplexMesh(foam.mesh(), MPI_COMM_WORLD)),
-        halo(adapter.mesh, MPI_COMM_WORLD)
-    {}
-    static std::vector<FoamCase::Edit> edits(bool is3d)
-    {
-        if (!is3d) return {};
-        std::vector<FoamCase::Edit> list;
-        for (const char* file : {"0/U", "0/p_rgh", "0/alpha.water"}) list.push_back({file, "frontAndBack { type empty; }", "frontAndBack { type slip; }"});
-        return list;
-    }
-    BodiesInput read(const std::string& contents) { return readBodies(parse(contents), foam.mesh(), adapter.mesh, halo, Vec3(0, -9.81, 0)); }
-    std::string message(const std::string& contents) { return messageOf([&] { read(contents); }); }
-};
-
-bool has(const std::string& s, const std::string& part)
-{
-    const bool found = s.find(part) != std::string::npos;
-    if (!found) MESSAGE("message was: " << s);
-    return found;
-}
-
-const std::string bar = "shape { type box; size (0.2 0.02 0.04); } density 600; ";
-std::string bodies(const std::string& contents) { return "bodies { bar { " + contents + " } }"; }
-
-} // namespace
-
 TEST_CASE("no file: an empty scene")
 {
-    Scene s;
+    BodiesScene s;
     const BodiesInput input = readBodies(s.foam.mesh(), s.adapter.mesh, s.halo, Vec3(0, -9.81, 0));
     CHECK(input.bodies.empty());
     CHECK(input.structures.empty());
@@ -72,7 +29,7 @@ bool isFlat(const Shape& shape, const Vec3& x, double radius)
 
 TEST_CASE("the spheres of a thin body do not get between those of a thick one")
 {
-    Scene s;
+    BodiesScene s;
     const std::vector<std::string> thick{"type box; size (0.3 0.1 0.12);", "type cylinder; end1 (-0.15 0 0); end2 (0.15 0 0); radius 0.05;",
         "type union; parts { a { type box; size (0.3 0.1 0.1); } b { type box; size (0.1 0.25 0.1); } }",
         "type union; parts { trunk { type cylinder; end1 (0 0 0); end2 (0.4 0 0); radius 0.05; } wad { type cylinder; end1 (0 0 0); end2 (0.1 0 0); radius 0.15; } }"};
@@ -99,7 +56,7 @@ TEST_CASE("the spheres of a thin body do not get between those of a thick one")
 
 TEST_CASE("spheres of a union are as fine as its thinnest part demands")
 {
-    Scene s;
+    BodiesScene s;
     const auto spheres = [&](const std::string& shape) { return s.read(bodies("shape { " + shape + " } density 600; position (1 0.5 0.2);")).bodies[0].spheres; };
     const std::string trunk = "type cylinder; end1 (0 0 0); end2 (0.3 0 0); radius 0.02;", wad = "type cylinder; end1 (-0.1 0 0); end2 (0.1 0 0); radius 0.1;";
     const double radius = spheres(trunk)[0].radius;
@@ -113,7 +70,7 @@ TEST_CASE("spheres of a union are as fine as its thinnest part demands")
 
 TEST_CASE("one body: mass, inertia, spheres, pose")
 {
-    Scene s;
+    BodiesScene s;
     const BodiesInput input = s.read(bodies(bar + "position (0.5 0.5 0.2); orientation { axis (0 1 0); angleDeg 90; } velocity (1 0 0); releaseTime 2; spheres { radius 0.005; spacing 0.01; }"));
     REQUIRE(input.bodies.size() == 1);
     const BodyDefinition& b = input.bodies[0];
@@ -132,7 +89,7 @@ TEST_CASE("one body: mass, inertia, spheres, pose")
 
 TEST_CASE("a shape off its centroid and axes: the geometry stays where the user put it, the body frame is principal")
 {
-    Scene s;
+    BodiesScene s;
     const std::string shape = "shape { type cylinder; end1 (0.1 0.2 0.1); end2 (0.3 0.4 0.1); radius 0.03; } mass 2; ";
     const BodiesInput input = s.read(bodies(shape + "position (0.4 0.1 0); orientation { axis (0 0 1); angleDeg 30; }"));
     const BodyDefinition& b = input.bodies[0];
@@ -151,7 +108,7 @@ TEST_CASE("a shape off its centroid and axes: the geometry stays where the user 
 
 TEST_CASE("arrays of structures and bodies, and their walls")
 {
-    Scene s;
+    BodiesScene s;
     const BodiesInput input = s.read(
         "materials (wood steel); wallMaterial steel; contact { default { stiffness 5e5; } wood-steel { restitution 0.5; frictionAngle 20; } }"
         "parameters { gap 0.1; } structures { pipes { shape { type cylinder; end1 (1.5 0 0.05); end2 (1.5 1 0.05); radius 0.01; } material steel; wall slip;"
@@ -191,7 +148,7 @@ TEST_CASE("arrays of structures and bodies, and their walls")
 
 TEST_CASE("poses: what one does not give is the group's")
 {
-    Scene s;
+    BodiesScene s;
     const BodiesInput input = s.read(bodies(bar + "velocity (1 0 0); poses ( { position (0.5 0.5 0.2); } { position (0.5 0.7 0.2); velocity (0 2 0); releaseTime 3; } );"));
     REQUIRE(input.bodies.size() == 2);
     CHECK(input.bodies[0].motion.velocity == Vec3(1, 0, 0));
@@ -202,7 +159,7 @@ TEST_CASE("poses: what one does not give is the group's")
 
 TEST_CASE("random places: inside the box, apart, the same for the same seed")
 {
-    Scene s;
+    BodiesScene s;
     const auto contents = [](int seed, const std::string& orientation)
     {
         return "structures { post { shape { type cylinder; end1 (0.5 0 0.2); end2 (0.5 1 0.2); radius 0.05; } } }"
@@ -234,7 +191,7 @@ TEST_CASE("random places: inside the box, apart, the same for the same seed")
 
 TEST_CASE("bodies that come in at their release may have one place; structures and walls must be out of it")
 {
-    Scene s;
+    BodiesScene s;
     const std::string absent = bar + "beforeRelease absent; ", at = "position (0.5 0.5 0.2); ";
     const BodiesInput input = s.read(bodies(absent + "poses ( { position (0.5 0.5 0.2); releaseTime 1; } { position (0.5 0.5 0.2); releaseTime 2; } );"));
     REQUIRE(input.bodies.size() == 2);
@@ -262,7 +219,7 @@ TEST_CASE("gaps of placed shapes")
 
 TEST_CASE("structures that overlap, touch, or lie in others")
 {
-    Scene s;
+    BodiesScene s;
     const auto overlaps = [&](const std::string& contents) { return findOverlaps(s.read("structures { " + contents + " }").structures, SceneFrame()); };
     const std::string pier = "pier { shape { type cylinder; end1 (1 0 0.2); end2 (1 1 0.2); radius 0.05; } } ";
     const auto box = [](const std::string& name, double x, double size)
@@ -282,7 +239,7 @@ TEST_CASE("structures that overlap, touch, or lie in others")
 
 TEST_CASE("prescribed motions: the velocity is the derivative of the pose")
 {
-    Scene s;
+    BodiesScene s;
     const std::string shape = "structures { gate { contact off; shape { type box; size (0.1 0.1 0.1); } position (1 0.5 0.2); motion { ";
     for (const std::string motion : {"type linear; velocity (1 2 0);", "type oscillating; direction (0 2 0); amplitude 0.1; period 2; phaseDeg 40;",
         "type rotating; origin (1.2 0.5 0.2); axis (0 0 1); rpm 30;"})
@@ -305,103 +262,11 @@ TEST_CASE("prescribed motions: the velocity is the derivative of the pose")
 
 TEST_CASE("2D: a body reaches through the mesh, moved to its mid-plane")
 {
-    Scene s(false);
+    BodiesScene s(false);
     const BodiesInput input = s.read(bodies("shape { type box; size (0.2 0.1 0.1); } density 500; position (0.5 0.5 0); orientation { axis (0 0 1); angleDeg 20; }"));
     CHECK(input.bodies[0].isPlanar);
     CHECK(input.bodies[0].planeAxis == 2);
     CHECK(input.bodies[0].pose.position.z() == doctest::Approx(0.05));
     CHECK(input.bodies[0].mass == doctest::Approx(500*0.2*0.1*0.1));
     CHECK(has(s.message(bodies("shape { type box; size (0.2 0.1 0.2); } density 500; position (0.5 0.5 0);")), "must reach through the mesh"));
-}
-
-TEST_CASE("one message for every mistake")
-{
-    Scene s;
-    const std::string at = "position (0.5 0.5 0.2); ";
-    CHECK(has(s.message(bodies("shape { type cubiod; } density 1;" + at)), "Unknown shape type 'cubiod'"));
-    CHECK(has(s.message(bodies("shape { type sphere; raidus 1; } density 1;" + at)), "Did you mean: radius"));
-    CHECK(has(s.message("boddies {}"), "Did you mean: bodies"));
-    CHECK(has(s.message(bodies("shape { type sphere; radius 0.1; } density -5;" + at)), "density' is -5: it must be larger than 0"));
-    CHECK(has(s.message(bodies("shape { type sphere; radius 0.1; }" + at)), "either 'density' [kg/m^3] or 'mass'"));
-    CHECK(has(s.message(bodies(bar + at + "array { count (0 1 1); spacing (1 1 1); }")), "at least 1"));
-    CHECK(has(s.message(bodies(bar + at + "material wod; ") + "materials (wood steel); wallMaterial wood;"), "Did you mean: wood"));
-    CHECK(has(s.message(bodies(bar + at) + "materials (wood steel); wallMaterial wood;"), "'material' is missing"));
-    CHECK(has(s.message(bodies(bar + at) + "contact { wood-steel {} }"), "Unknown keyword 'wood-steel'"));
-    CHECK(has(s.message(bodies(bar + at) + "wallPatches (flor);"), "Did you mean: floor"));
-    CHECK(has(s.message(bodies(bar + at + "spheres { radius 0.5; }")), "smallest extent is 0.02"));
-    CHECK(has(s.message(bodies(bar + at + "random {} poses ();")), "only one of"));
-    const std::string outside = s.message(bodies(bar + "position (1.95 0.5 0.2);"));
-    CHECK(has(outside, "Body bar reaches 50 mm into the outside of the mesh"));
-    CHECK(has(s.message(bodies(bar + "position (0.5 0.005 0.2);")), "wall floor"));
-    const std::string overlap = s.message(bodies(bar + "poses ( { position (0.5 0.5 0.2); } { position (0.5 0.515 0.2); } );"));
-    CHECK(has(overlap, "Body bar.1 reaches 5 mm into body bar.0"));
-    CHECK(has(s.message("structures { post { shape { type cylinder; end1 (0.5 0 0.2); end2 (0.5 1 0.2); radius 0.05; } } }" + bodies(bar + at)), "into structure post"));
-    CHECK(has(s.message("structures { post { shape { type box; size (0.1 0.1 0.1); } wall noslip; } }"), "Did you mean: noSlip"));
-    CHECK(has(s.message("structures { gate { shape { type box; size (0.1 0.1 0.1); } position (1.5 0.5 0.2); motion { type linear; velocity (1 0 0); } } }" + bodies(bar + at)), "contact off"));
-    CHECK(has(s.message(bodies(bar + "random { count 50; box ((0 0 0) (0.3 0.05 0.05)); tries 20; }")), "of 50 bodies 'bar' found a place within 20 tries"));
-    CHECK(has(s.message(bodies(bar + "array { count (100000 100000 1); spacing (1 1 1); }")), "makes 1e+10 members: at most 1e+06"));
-    CHECK(has(s.message(bodies("shape { type cylinder; end1 (1 1 1); end2 (1 1 1); radius 1; } density 1;")), "no length"));
-    CHECK(s.message(bodies(bar + "position (0.5 0.01 0.2);")).empty()); // lies on the floor
-}
-
-TEST_CASE("a group that stands twice in its file is found, and nothing else")
-{
-    const auto found = [](const std::string& contents)
-    {
-        std::string result;
-        for (const RepeatedGroup& g : repeatedGroups(contents, {"structures", "bodies"}))
-            result += g.section + "/" + g.name + ":" + std::to_string(g.firstLine) + ":" + std::to_string(g.line) + " ";
-        return result;
-    };
-    const std::string box = " { shape { type box; size (1 1 1); } density 600; }\n";
-    CHECK(found("bodies\n{\n bar" + box + " log" + box + " bar // again\n" + box + "}") == "bodies/bar:3:5 ");
-    CHECK(found("bodies { bar" + box + "}\nbodies { bar" + box + "}") == "bodies/bar:1:3 ");      // merged as well
-    CHECK(found("structures { \"p.*\"" + box + "\"p.*\"" + box + "}") == "structures/\"p.*\":1:2 ");
-    CHECK(found("#ifeq a b\nbodies { a" + box + " a" + box + "}\n#endif") == "bodies/a:2:3 ");
-    CHECK(found("bodies { bar { shape #calc #{ } } } #}; a \"}}\"; /* } */ b (0 (1)); } // }\n bar {} }") == "bodies/bar:1:2 ");
-
-    CHECK(found("bodies { a" + box + " b" + box + "} structures { a" + box + " c" + box + "}") == "");
-    CHECK(found("materials { a {} a {} } bodies { a { array {} array {} } b { array {} poses ( { a {} } { a {} } ); } }") == "");
-    CHECK(found("bodies { // bar {}\n /* bar {} */ bar { note \"bar {\"; code #{ bar { #}; } }") == "");
-    CHECK(found("#ifeq $x 1\nbodies { a" + box + "}\n#else\nbodies { a" + box + "}\n#endif\n#ifeq $x 3\nbodies { a" + box + "}\n#endif") == "");
-    CHECK(found("#include \"base\"\nbodies { a" + box + "#if 1\n a { density 700; }\n#elif 0\n a { density 800; }\n#endif\n b { $a; } }") == "");
-    CHECK(found("bodies { $a { } $a { } ${b} { } ${b} { } x #eval{ 1 + 2 }; y #eval{ 2 }; }") == "");
-    CHECK(found("} } ) #endif bodies { \"a") == "");  // never fails
-}
-
-TEST_CASE("two groups of one name in constant/bodies are refused, those of an included file are changed")
-{
-    Scene s;
-    const auto write = [&](const std::string& file, const std::string& contents)
-    {
-        MPI_Barrier(MPI_COMM_WORLD); // others may still read
-        if (s.halo.rank() == 0) std::ofstream(s.foam.folder() + "/constant/" + file) << "FoamFile { version 2.0; format ascii; class dictionary; object bodies; }\n" << contents;
-        MPI_Barrier(MPI_COMM_WORLD);
-    };
-    BodiesInput input;
-    const auto message = [&] { return messageOf([&] { input = readBodies(s.foam.mesh(), s.adapter.mesh, s.halo, Vec3(0, -9.81, 0)); }); };
-    const std::string first = "bar { " + bar + "position (0.5 0.5 0.2); }\n", second = "bar { " + bar + "position (0.5 0.7 0.2); }\n";
-    write("bodies", "bodies\n{\n" + first + second + "}\n");
-    const std::string refused = message();
-    CHECK(has(refused, "'bar' stands twice in 'bodies', in lines 4 and 5"));
-    CHECK(has(refused, "a name of its own"));
-    write("base", "bodies\n{\n" + first + "}\n");
-    write("bodies", "#include \"base\"\nbodies\n{\nbar { density 700; }\n}\n");
-    CHECK(message().empty());
-    REQUIRE(input.bodies.size() == 1);
-    CHECK(input.bodies[0].mass == doctest::Approx(700*input.bodies[0].volume));
-    MPI_Barrier(MPI_COMM_WORLD);
-}
-
-TEST_CASE("an open STL is refused with its file")
-{
-    Scene s;
-    if (s.halo.rank() == 0) std::filesystem::create_directories(s.foam.folder() + "/constant/triSurface");
-    if (s.halo.rank() == 0) std::ofstream(s.foam.folder() + "/constant/triSurface/open.stl")
-        << "solid open\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid open\n";
-    MPI_Barrier(MPI_COMM_WORLD);
-    const std::string message = s.message(bodies("shape { type stl; file \"open.stl\"; } density 500;"));
-    CHECK(has(message, "open.stl"));
-    CHECK(has(message, "the surface is open")); // so it was found and read, on every rank
-    CHECK(has(s.message(bodies("shape { type stl; file \"absent.stl\"; } density 500;")), "absent.stl"));
 }

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Surfaces without holes: of the fluid around solids that touch, and of every body with what others cover of it.
+#include "support/coverScene.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace flotsam;
+
+namespace
+{
+
+/// Largest force of a uniform pressure on the rows of the owned nodes off the mesh's boundary, over the pressure and the mesh size: the fluid's surface is closed if there is none.
+double largestHole(const CoverScene& scene, const Cover& cover, double h)
+{
+    const SimplexMesh& mesh = scene.mesh;
+    const int dim = mesh.dim;
+    std::vector<double> force(std::size_t(mesh.nNodes) * dim, 0.0);
+    std::vector<char> isBoundary(mesh.nNodes, 0);
+    for (const MeshPatch& patch : mesh.patches)
+        for (int i : patch.faceNodes) isBoundary[i] = 1;
+    for (int e = 0; e < mesh.nElements; ++e)
+        for (int a = 0; a <= dim; ++a)
+            for (int d = 0; d < dim; ++d)
+                force[std::size_t(mesh.elements[std::size_t(e) * (dim + 1) + a]) * dim + d] += fluidVolume(mesh, &cover, e) * mesh.gradN[(std::size_t(e) * (dim + 1) + a) * dim + d];
+    for (const CutFacet& f : cover.facets)
+        for (int a = 0; a <= dim; ++a)
+            for (int d = 0; d < dim; ++d)
+                for (int q = 0; q < f.nPoints; ++q) force[std::size_t(mesh.elements[std::size_t(f.element) * (dim + 1) + a]) * dim + d] -= f.weight[q] * f.shape[q][a] * f.normal[d];
+    double largest = 0;
+    for (int i = 0; i < mesh.nOwned; ++i)
+        for (int d = 0; d < dim && !isBoundary[i]; ++d) largest = std::max(largest, std::abs(force[std::size_t(i) * dim + d]) / std::pow(h, dim - 1));
+    return scene.halo.max(largest);
+}
+
+} // namespace
+
+TEST_CASE("the fluid's surface is closed around solids that touch, in every node's row")
+{
+    for (const int dim : {2, 3})
+    {
+        const int n = dim == 2 ? 24 : 12;
+        CoverScene scene(dim, n);
+        CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+        for (int k = 0; k < 24; ++k)
+        {
+            // side by side, one on both, an edge of one beside the side of another; overlaps and gaps, a little turned
+            const double by = 0.003 * (k % 3 - 1), turned = 0.01 * (k % 5 - 2);
+            std::vector<Solid> solids = {makeSolid(makeBox(Vec3::Zero(), {0.5, 0.4, 0.7}), {-0.25 - by + 0.011 * k, -0.3, 0.02}, Solid::Kind::Free),
+                makeSolid(makeBox(Vec3::Zero(), {0.5, 0.4, 0.7}), {0.25 + 0.011 * k, -0.3 + 0.004 * k, 0.01}, Solid::Kind::Free),
+                makeSolid(makeBox(Vec3::Zero(), {0.4, 0.3, 0.5}), {0.05 + 0.011 * k, 0.055 + 0.004 * k, 0}, k % 2 ? Solid::Kind::Fixed : Solid::Kind::Prescribed)};
+            for (Solid& solid : solids) solid.pose.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(turned, Vec3::UnitZ()));
+            CHECK(largestHole(scene, builder.build(solids), 2.0 / n) < 1e-12);
+        }
+    }
+}
+
+// Of long elements, whose next ones are beyond reach of the body.
+TEST_CASE("the fluid's surface is closed around structures that touch while a body passes by")
+{
+    for (const int dim : {2, 3})
+    {
+        CoverScene scene(dim, dim == 2 ? std::array{8, 32, 1} : std::array{5, 15, 15});
+        for (int place = 0; place < 10; ++place)
+        {
+            CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+            std::vector<Solid> solids = {makeSolid(makeBox(Vec3::Zero(), {0.35, 0.36, 0.7}), {-0.08 - 0.02 * place, -0.03, 0.02}, Solid::Kind::Fixed),
+                makeSolid(makeBox(Vec3::Zero(), {0.35, 0.5, 0.7}), {-0.37, -0.4, 0}, Solid::Kind::Fixed), makeSolid(makeBox(Vec3::Zero(), {0.3, 0.3, 0.5}), Vec3::Zero(), Solid::Kind::Free)};
+            for (int s = 0; s < 3; ++s) solids[s].pose.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(s == 0 ? -0.24 : 0.04, Vec3::UnitZ()));
+            for (int k = 0; k < 12; ++k)
+            {
+                solids[2].pose.position = {0.4 + 0.03 * k, 0.2 * std::sin(k) - 0.2, 0.1};
+                CHECK(largestHole(scene, builder.build(solids), 0.1) < 1e-12);
+            }
+        }
+    }
+}
+
+TEST_CASE("with what others cover of it every body's surface is closed")
+{
+    for (const int dim : {2, 3})
+    {
+        CoverScene scene(dim, dim == 2 ? 24 : 12);
+        // a box flat on a fixed one and a little in it, a sphere between both and a prescribed box
+        std::vector<Solid> solids = {makeSolid(makeBox(Vec3::Zero(), {1.2, 0.4, 0.9}), {0, -0.5, 0}, Solid::Kind::Fixed), makeSolid(makeBox(Vec3::Zero(), {0.5, 0.3, 0.6}), {0.13, -0.155, 0.02}, Solid::Kind::Free),
+            makeSolid(makeSphere(Vec3::Zero(), 0.2), {-0.33, -0.2, 0}, Solid::Kind::Free), makeSolid(makeBox(Vec3::Zero(), {0.3, 0.4, 0.5}), {-0.62, 0, 0}, Solid::Kind::Prescribed)};
+        for (Solid& solid : solids) solid.pose.orientation = Eigen::Quaterniond::Identity();
+        CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+        const Cover& cover = builder.build(solids);
+        for (std::size_t s = 1; s < solids.size(); ++s)
+        {
+            Eigen::Matrix<double, 4, 3> moments = Eigen::Matrix<double, 4, 3>::Zero(); // of (1, x) over the surface
+            double covered = 0;
+            const auto add = [&](int element, const double* shape, const double* area)
+            {
+                Eigen::Vector4d place(1, 0, 0, 0);
+                for (int a = 0; a <= dim; ++a)
+                    for (int d = 0; d < dim; ++d) place[1 + d] += shape[a] * scene.mesh.x[std::size_t(scene.mesh.elements[std::size_t(element) * (dim + 1) + a]) * dim + d];
+                for (int d = 0; d < dim; ++d) moments.col(d) += area[d] * place;
+            };
+            for (const CutFacet& f : cover.facets)
+            {
+                if (f.solid != int(s) || !scene.mesh.isOwnedElement[f.element]) continue;
+                double shape[4] = {}, area[3];
+                for (int q = 0; q < f.nPoints; ++q)
+                    for (int a = 0; a <= dim; ++a) shape[a] += f.weight[q] / f.area * f.shape[q][a];
+                for (int d = 0; d < dim; ++d) area[d] = f.area * f.normal[d];
+                add(f.element, shape, area);
+            }
+            for (const CoveredFacet& f : cover.coveredFacets)
+            {
+                if (f.solid != int(s) || !scene.mesh.isOwnedElement[f.element]) continue;
+                for (int q = 0; q < f.nPoints; ++q) add(f.element, f.shape[q], f.area);
+                covered += f.nPoints * std::abs(f.area[0]);
+            }
+            scene.halo.sum(moments.data(), 12);
+            covered = scene.halo.sum(covered);
+            const double volume = cutMesh(scene.mesh, scene.graph, scene.halo, {solids[s]}).solidVolume[0];
+            CHECK(covered > 0.01);
+            for (int d = 0; d < dim; ++d)
+                for (int k = 0; k <= dim; ++k) CHECK(moments(k, d) == doctest::Approx(k == d + 1 ? -volume : 0).epsilon(1e-12));
+        }
+    }
+}

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// constant/bodies: one message for every mistake.
+#include "demCoupling/foam/repeatedGroups.hpp"
+#include "support/bodiesScene.H"
+
+#include <doctest/doctest.h>
+
+#include <mpi.h>
+
+#include <fstream>
+
+using namespace flotsam;
+
+TEST_CASE("one message for every mistake")
+{
+    BodiesScene s;
+    const std::string at = "position (0.5 0.5 0.2); ";
+    CHECK(has(s.message(bodies("shape { type cubiod; } density 1;" + at)), "Unknown shape type 'cubiod'"));
+    CHECK(has(s.message(bodies("shape { type sphere; raidus 1; } density 1;" + at)), "Did you mean: radius"));
+    CHECK(has(s.message("boddies {}"), "Did you mean: bodies"));
+    CHECK(has(s.message(bodies("shape { type sphere; radius 0.1; } density -5;" + at)), "density' is -5: it must be larger than 0"));
+    CHECK(has(s.message(bodies("shape { type sphere; radius 0.1; }" + at)), "either 'density' [kg/m^3] or 'mass'"));
+    CHECK(has(s.message(bodies(bar + at + "array { count (0 1 1); spacing (1 1 1); }")), "at least 1"));
+    CHECK(has(s.message(bodies(bar + at + "material wod; ") + "materials (wood steel); wallMaterial wood;"), "Did you mean: wood"));
+    CHECK(has(s.message(bodies(bar + at) + "materials (wood steel); wallMaterial wood;"), "'material' is missing"));
+    CHECK(has(s.message(bodies(bar + at) + "contact { wood-steel {} }"), "Unknown keyword 'wood-steel'"));
+    CHECK(has(s.message(bodies(bar + at) + "wallPatches (flor);"), "Did you mean: floor"));
+    CHECK(has(s.message(bodies(bar + at + "spheres { radius 0.5; }")), "smallest extent is 0.02"));
+    CHECK(has(s.message(bodies(bar + at + "random {} poses ();")), "only one of"));
+    const std::string outside = s.message(bodies(bar + "position (1.95 0.5 0.2);"));
+    CHECK(has(outside, "Body bar reaches 50 mm into the outside of the mesh"));
+    CHECK(has(s.message(bodies(bar + "position (0.5 0.005 0.2);")), "wall floor"));
+    const std::string overlap = s.message(bodies(bar + "poses ( { position (0.5 0.5 0.2); } { position (0.5 0.515 0.2); } );"));
+    CHECK(has(overlap, "Body bar.1 reaches 5 mm into body bar.0"));
+    CHECK(has(s.message("structures { post { shape { type cylinder; end1 (0.5 0 0.2); end2 (0.5 1 0.2); radius 0.05; } } }" + bodies(bar + at)), "into structure post"));
+    CHECK(has(s.message("structures { post { shape { type box; size (0.1 0.1 0.1); } wall noslip; } }"), "Did you mean: noSlip"));
+    CHECK(has(s.message("structures { gate { shape { type box; size (0.1 0.1 0.1); } position (1.5 0.5 0.2); motion { type linear; velocity (1 0 0); } } }" + bodies(bar + at)), "contact off"));
+    CHECK(has(s.message(bodies(bar + "random { count 50; box ((0 0 0) (0.3 0.05 0.05)); tries 20; }")), "of 50 bodies 'bar' found a place within 20 tries"));
+    CHECK(has(s.message(bodies(bar + "array { count (100000 100000 1); spacing (1 1 1); }")), "makes 1e+10 members: at most 1e+06"));
+    CHECK(has(s.message(bodies("shape { type cylinder; end1 (1 1 1); end2 (1 1 1); radius 1; } density 1;")), "no length"));
+    CHECK(s.message(bodies(bar + "position (0.5 0.01 0.2);")).empty()); // lies on the floor
+}
+
+TEST_CASE("a group that stands twice in its file is found, and nothing else")
+{
+    const auto found = [](const std::string& contents)
+    {
+        std::string result;
+        for (const RepeatedGroup& g : repeatedGroups(contents, {"structures", "bodies"}))
+            result += g.section + "/" + g.name + ":" + std::to_string(g.firstLine) + ":" + std::to_string(g.line) + " ";
+        return result;
+    };
+    const std::string box = " { shape { type box; size (1 1 1); } density 600; }\n";
+    CHECK(found("bodies\n{\n bar" + box + " log" + box + " bar // again\n" + box + "}") == "bodies/bar:3:5 ");
+    CHECK(found("bodies { bar" + box + "}\nbodies { bar" + box + "}") == "bodies/bar:1:3 ");      // merged as well
+    CHECK(found("structures { \"p.*\"" + box + "\"p.*\"" + box + "}") == "structures/\"p.*\":1:2 ");
+    CHECK(found("#ifeq a b\nbodies { a" + box + " a" + box + "}\n#endif") == "bodies/a:2:3 ");
+    CHECK(found("bodies { bar { shape #calc #{ } } } #}; a \"}}\"; /* } */ b (0 (1)); } // }\n bar {} }") == "bodies/bar:1:2 ");
+
+    CHECK(found("bodies { a" + box + " b" + box + "} structures { a" + box + " c" + box + "}") == "");
+    CHECK(found("materials { a {} a {} } bodies { a { array {} array {} } b { array {} poses ( { a {} } { a {} } ); } }") == "");
+    CHECK(found("bodies { // bar {}\n /* bar {} */ bar { note \"bar {\"; code #{ bar { #}; } }") == "");
+    CHECK(found("#ifeq $x 1\nbodies { a" + box + "}\n#else\nbodies { a" + box + "}\n#endif\n#ifeq $x 3\nbodies { a" + box + "}\n#endif") == "");
+    CHECK(found("#include \"base\"\nbodies { a" + box + "#if 1\n a { density 700; }\n#elif 0\n a { density 800; }\n#endif\n b { $a; } }") == "");
+    CHECK(found("bodies { $a { } $a { } ${b} { } ${b} { } x #eval{ 1 + 2 }; y #eval{ 2 }; }") == "");
+    CHECK(found("} } ) #endif bodies { \"a") == "");  // never fails
+}
+
+TEST_CASE("two groups of one name in constant/bodies are refused, those of an included file are changed")
+{
+    BodiesScene s;
+    const auto write = [&](const std::string& file, const std::string& contents)
+    {
+        MPI_Barrier(MPI_COMM_WORLD); // others may still read
+        if (s.halo.rank() == 0) std::ofstream(s.foam.folder() + "/constant/" + file) << "FoamFile { version 2.0; format ascii; class dictionary; object bodies; }\n" << contents;
+        MPI_Barrier(MPI_COMM_WORLD);
+    };
+    BodiesInput input;
+    const auto message = [&] { return messageOf([&] { input = readBodies(s.foam.mesh(), s.adapter.mesh, s.halo, Vec3(0, -9.81, 0)); }); };
+    const std::string first = "bar { " + bar + "position (0.5 0.5 0.2); }\n", second = "bar { " + bar + "position (0.5 0.7 0.2); }\n";
+    write("bodies", "bodies\n{\n" + first + second + "}\n");
+    const std::string refused = message();
+    CHECK(has(refused, "'bar' stands twice in 'bodies', in lines 4 and 5"));
+    CHECK(has(refused, "a name of its own"));
+    write("base", "bodies\n{\n" + first + "}\n");
+    write("bodies", "#include \"base\"\nbodies\n{\nbar { density 700; }\n}\n");
+    CHECK(message().empty());
+    REQUIRE(input.bodies.size() == 1);
+    CHECK(input.bodies[0].mass == doctest::Approx(700*input.bodies[0].volume));
+    MPI_Barrier(MPI_COMM_WORLD);
+}
+
+TEST_CASE("an open STL is refused with its file")
+{
+    BodiesScene s;
+    if (s.halo.rank() == 0) std::filesystem::create_directories(s.foam.folder() + "/constant/triSurface");
+    if (s.halo.rank() == 0) std::ofstream(s.foam.folder() + "/constant/triSurface/open.stl")
+        << "solid open\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid open\n";
+    MPI_Barrier(MPI_COMM_WORLD);
+    const std::string message = s.message(bodies("shape { type stl; file \"open.stl\"; } density 500;"));
+    CHECK(has(message, "open.stl"));
+    CHECK(has(message, "the surface is open")); // so it was found and read, on every rank
+    CHECK(has(s.message(bodies("shape { type stl; file \"absent.stl\"; } density 500;")), "absent.stl"));
+}
