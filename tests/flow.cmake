@@ -36,6 +36,8 @@ flotsam_test(narrowGaps verification SOURCES verification/narrowGaps.cpp
   LIBRARIES flotsam_equations flotsam_test_support)
 flotsam_test(enteringBodies verification SOURCES verification/enteringBodies.cpp
   LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
+flotsam_test(fastBodies verification SOURCES verification/fastBodies.cpp
+  LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
 flotsam_test(heldBody verification SOURCES verification/heldBody.cpp
   LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
 

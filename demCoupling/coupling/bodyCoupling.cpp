@@ -164,7 +164,7 @@ void BodyCoupling::runEngine(double duration, const std::vector<Load>& loads)
     shareResults();
 }
 
-void BodyCoupling::begin(double time, double dt)
+void BodyCoupling::begin(double time, double dt, double far)
 {
     dt_ = dt;
     iteration_.begin(dt);
@@ -180,6 +180,16 @@ void BodyCoupling::begin(double time, double dt)
     hold(held);
     guarded([&] { saved_ = engine_->save(); });
     for (int b = 0; b < nBodies(); ++b) predicted_[b] = isHeld_[b] ? states_[b] : drifted(b);
+    if (!check_.strayBody(states_, predicted_, far).empty()) predictContacts();
+}
+
+/// Bodies that touch something on their way end where the engine puts them with the last fluid loads.
+void BodyCoupling::predictContacts()
+{
+    runEngine(dt_, inertia_.engineLoads(lastLoads_, difference(contactGuess(), smoothing_)));
+    isAtStart_ = false;
+    for (int b = 0; b < nBodies(); ++b)
+        if (!newContact_[b].isZero()) predicted_[b].pose = result_[b].pose;
 }
 
 /// A body that is let go has its velocity at once, for the fluid too.

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Predict - solve - correct between contact (microseconds, LIGGGHTS) and flow (milliseconds, one linear system).
 ///
-///   begin(dt)      DEM state saved; poses predicted from the last velocities and net forces, contact loads from the last step
+///   begin(dt)      DEM state saved; poses predicted from the last velocities and net forces, contact loads from the last step. Where a body goes far:
+///                  poses of touched bodies from a run of the DEM with the last fluid loads
 ///   [fluid solved with contactGuess() on the bodies' rows]
 ///   correct(load)  DEM restored and run with the new load; true when the contact loads it gives are the ones the fluid was
 ///                  solved with. Otherwise contactGuess() holds the next guess: solve again
 ///   accept() or reject()
 ///
 /// Without contact before and after the step the first correct() returns true: exactly one solve a step. A prediction by DEM
-/// sub-steps would cost one more DEM run in every step.
+/// sub-steps costs one more DEM run: only steps in which a body that contact stops would end far from its drift have it.
 /// The repeats: contactIteration.hpp; velocities of touched bodies: smoothMotion.hpp; light bodies: addedInertia.hpp; steps that must not be accepted: motionCheck.hpp.
 /// Bodies that have left the mesh are taken out: they rest where they left, and touch nothing; so do those to come (BodyDefinition::entersAtRelease)
 /// until they are let in. Rank 0 owns the engine; every rank holds the same states.
@@ -38,7 +39,8 @@ public:
     BodyCoupling(const DemSetup& setup, const CouplingControls& controls, MPI_Comm comm);
     ~BodyCoupling();
 
-    void begin(double time, double dt);
+    /// far: way of a body in the step [m] from which on its contacts count for the prediction.
+    void begin(double time, double dt, double far);
     bool correct(const std::vector<Load>& loads); ///< loads: fluid and weight, constant over the step
     /// Name of a body whose surface the last correct() put farther than `distance` [m] from where it was predicted; empty: none.
     std::string strayBody(double distance) const { return check_.strayBody(predicted_, result_, distance); }
@@ -92,6 +94,7 @@ private:
     void runEngine(double duration, const std::vector<Load>& loads);
     void shareResults();
     BodyState drifted(int body) const;
+    void predictContacts();
     void hold(const std::vector<char>& isHeld);
     void guarded(const std::function<void()>& work) const;
 

@@ -78,7 +78,7 @@ StepResult CoupledStep::step(double dt)
     {
         PhaseTimer t(timers_, Phase::Dem);
         letIn(time);
-        coupling_->begin(time, dt);
+        coupling_->begin(time, dt, 0.5*strayElements*smallestCutElement());
     }
     if (scene_.moves()) fluid_.keepGeometry();
     scene_.place(time + dt, coupling_.get());

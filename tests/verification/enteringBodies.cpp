@@ -1,92 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Bodies that come in at their release: each through the gas at the place of the ones before, once that is free; none is there before, and no
 /// liquid is lost.
-#include "demCoupling/coupling/coupledStep.hpp"
-#include "geometry/primitives.hpp"
-#include "support/flowCases.hpp"
+#include "support/bodyTank.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <cstdio>
 
-using namespace flotsam;
+using namespace bodyTank;
 
 namespace
 {
 
-constexpr double g = 9.81, side = 0.1, level = 0.5, dt = 0.004;
-const Vec3 gravity(0, -g, 0), place(0.5, 0.8, 0.5);
+constexpr double dt = 0.004;
+const Vec3 place(0.5, 0.8, 0.5);
 
-/// 2D, 1 m x 1.2 m, half full, open at the top.
-struct Tank
+BodyDefinition entering(const std::string& name, double releaseTime, const Vec3& position = place)
 {
-    SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, 2, {25, 30, 1}, {0, 0, 0}, {1, 1.2, 1});
-    Halo halo{mesh, MPI_COMM_WORLD};
-    FluidProperties fluid;
-    NumericsControls controls;
-    std::vector<BoundaryPatch> patches;
-    PhaseTimers timers;
-
-    Tank()
-    {
-        usePetsc();
-        fluid.isTwoPhase = true;
-        fluid.rhoLiquid = 1000;
-        fluid.muLiquid = 1e-3;
-        fluid.rhoGas = 1;
-        fluid.muGas = 1e-5;
-        fluid.gravity = {0, -g, 0};
-        for (int p = 0; p < 4; ++p) patches.push_back(makePatch(mesh, p, p == 3 ? BoundaryPatch::Velocity::Open : BoundaryPatch::Velocity::Slip));
-    }
-
-    FlowState rest() const
-    {
-        FlowState state = restState(mesh);
-        for (int i = 0; i < mesh.nNodes; ++i) state.alpha[i] = mesh.x[2*std::size_t(i) + 1] <= level;
-        return state;
-    }
-};
-
-BodyDefinition makeBar(const std::string& name, double releaseTime, const Vec3& position = place)
-{
-    BodyDefinition bar;
-    bar.name = name;
-    bar.shape = makeBox(Vec3::Zero(), Vec3(side, side, 1));
-    bar.volume = side*side;
-    bar.mass = 600*bar.volume;
-    bar.principalInertia = bar.mass/12*Vec3(1 + side*side, 1 + side*side, 2*side*side);
-    bar.pose.position = position;
-    bar.isPlanar = true;
-    bar.thinnest = side;
-    bar.releaseTime = releaseTime;
+    BodyDefinition bar = makeBar(name, releaseTime, position);
     bar.entersAtRelease = true;
-    for (double y : {-0.04, -0.02, 0.0, 0.02, 0.04})
-        for (double x : {-0.04, -0.02, 0.0, 0.02, 0.04})
-            if (std::max(std::abs(x), std::abs(y)) > 0.03) bar.spheres.push_back({Vec3(x, y, 0), 0.01});
     return bar;
-}
-
-DemSetup makeDem(const std::vector<BodyDefinition>& bars)
-{
-    DemSetup dem;
-    dem.bodies = bars;
-    dem.laws = {ContactLaw()};
-    dem.box = {Vec3(0, 0, 0), Vec3(1, 1.2, 1)};
-    for (const Vec3& normal : {Vec3(1, 0, 0), Vec3(-1, 0, 0), Vec3(0, 1, 0)})
-    {
-        WallDefinition wall;
-        wall.name = "wall";
-        wall.point = normal[0] < 0 ? Vec3(1, 0, 0) : Vec3(Vec3::Zero());
-        wall.normal = normal;
-        dem.walls.push_back(wall);
-    }
-    return dem;
-}
-
-std::unique_ptr<CoupledStep> makeRun(Tank& tank, const DemSetup& dem)
-{
-    return std::make_unique<CoupledStep>(tank.mesh, tank.halo, tank.fluid, tank.controls, tank.patches, Scene({}, dem.bodies, gravity), &dem, tank.timers);
 }
 
 double speedOfLiquid(const Tank& tank, const FlowState& state)
@@ -102,7 +36,7 @@ double speedOfLiquid(const Tank& tank, const FlowState& state)
 TEST_CASE("a body that comes in falls freely from its place, and neither liquid nor gas is set in motion by its coming")
 {
     Tank tank;
-    const DemSetup dem = makeDem({makeBar("bar", 0.02)});
+    const DemSetup dem = makeDem({entering("bar", 0.02)});
     const auto run = makeRun(tank, dem);
     run->start(tank.rest(), true);
     const double liquid = run->fluid().liquidVolume();
@@ -131,7 +65,7 @@ TEST_CASE("a body that comes in falls freely from its place, and neither liquid 
 TEST_CASE("a light body comes in as any other; until then the steps are those without light bodies")
 {
     Tank tank;
-    BodyDefinition bar = makeBar("bar", 0.008);
+    BodyDefinition bar = entering("bar", 0.008);
     bar.mass /= 60; // 10 kg/m3
     bar.principalInertia /= 60;
     const DemSetup dem = makeDem({bar});
@@ -151,12 +85,11 @@ TEST_CASE("a step that fails when a body comes in leaves no trace")
 {
     Tank tank;
     BodyDefinition sunken = makeBar("sunken", 0, Vec3(0.8, 0.5*side - 1e-6, 0.5)); // on the floor
-    sunken.entersAtRelease = false;
     sunken.mass *= 3;
     sunken.principalInertia *= 3;
-    BodyDefinition waiting = makeBar("waiting", 0.02);
+    BodyDefinition waiting = entering("waiting", 0.02);
     waiting.motion.velocity = Vec3(0, -100, 0);
-    const DemSetup dem = makeDem({makeBar("bar", 0.02), waiting, sunken});
+    const DemSetup dem = makeDem({entering("bar", 0.02), waiting, sunken});
     const auto run = makeRun(tank, dem), direct = makeRun(tank, dem);
     for (CoupledStep* r : {run.get(), direct.get()})
     {
@@ -188,7 +121,7 @@ TEST_CASE("a step that fails when a body comes in leaves no trace")
 TEST_CASE("one place serves many: each waits until it is free; one whose place is in the water does not come; a restart goes on with the same bits")
 {
     Tank tank;
-    const DemSetup dem = makeDem({makeBar("first", 0), makeBar("second", 0), makeBar("third", 0.1), makeBar("sunk", 0, Vec3(0.2, 0.3, 0.5))});
+    const DemSetup dem = makeDem({entering("first", 0), entering("second", 0), entering("third", 0.1), entering("sunk", 0, Vec3(0.2, 0.3, 0.5))});
     const auto run = makeRun(tank, dem);
     run->start(tank.rest(), true);
     const double liquid = run->fluid().liquidVolume();
