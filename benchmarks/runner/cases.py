@@ -8,7 +8,7 @@ parameters(run)  entries of system/parameters, included by the case's dictionari
 files(run, folder)  {path: text} of further files of the case folder, may be missing
 prepare(run, do) mesh and start fields: do("blockMesh") runs a command in the case folder; time not counted
 errors(run, folder)  {column: value} from the finished run, the same formula for all solvers
-targets          {column: (value, text)}, may be missing
+targets          list of Target, may be missing
 variantsAreProblems  True: a variant is another problem, compared with the same variant of the others only; may be missing
 """
 import importlib.util
@@ -34,6 +34,22 @@ class Run:
 def series(solver, sizes, quick=1, **rest):
     """Runs of one solver at several resolutions, of which the first `quick` are also in the quick set."""
     return [Run(solver, n, quick=i < quick, **rest) for i, n in enumerate(sizes)]
+
+
+@dataclass
+class Target:
+    column: str                 # of the rows: a figure, or cpu
+    limit: float                # at most; of errors with either sign the size counts
+    text: str
+    n: int = 0                  # resolution it holds for; 0: every one
+    variant: str = None         # likewise; None: every one
+    isLeast: bool = False       # at least, with its sign
+
+    def holdsFor(self, row):
+        return (not self.n or int(row["N"]) == self.n) and (self.variant is None or row["variant"] == self.variant)
+
+    def isReached(self, value):
+        return value >= self.limit if self.isLeast else abs(value) <= self.limit
 
 
 ORDER = ["damBreak2D", "cylinder2D1", "sloshing2D", "hydrostatic", "advection", "heaveCylinder2D", "marin3D"]

@@ -87,12 +87,14 @@ def _comparison(case, rows, column):
 
 def _targets(case, rows):
     lines = []
-    for column, (limit, text) in getattr(case, "targets", {}).items():
+    for target in getattr(case, "targets", []):
         for row in rows:
-            value = table.number(row, column)
-            if isOurs(row) and value is not None:
-                lines.append([text, f"{limit:g}", f"{label(row)} {row['N']}", f"{abs(value):.4g}", "reached" if abs(value) <= limit else "not reached"])
-    return _markdown(["target", "at most", "run, N", "value", "verdict"], lines) if lines else ""
+            value = table.number(row, target.column)
+            if not isOurs(row) or value is None or not target.holdsFor(row):
+                continue
+            limit = f"{'at least' if target.isLeast else 'at most'} {target.limit:g}"
+            lines.append([target.text, limit, f"{label(row)} {row['N']}", f"{value if target.isLeast else abs(value):.4g}", "reached" if target.isReached(value) else "not reached"])
+    return _markdown(["target", "limit", "run, N", "value", "verdict"], lines) if lines else ""
 
 
 def _wrapped(text):
@@ -112,7 +114,7 @@ def write(case, rows, results):
              f"![error against CPU seconds]({case.name}.png)"]
     targets = _targets(case, rows)
     if targets:
-        parts += ["## Targets", "A target holds for the N that it names; the other runs are shown beside it.", targets]
+        parts += ["## Targets", targets]
     parts += ["## All runs", _wrapped("CPU s: user seconds of the solver. us/point/step: the same per node (peers: cell) and step. load: load of the machine "
                                       "when the run started; compare times of equal load, and leave differences below 20 % alone."), _allRuns(case, rows)]
     isFirst = True

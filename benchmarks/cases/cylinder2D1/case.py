@@ -6,7 +6,7 @@ import os
 import numpy as np
 
 from runner import foam
-from runner.cases import series
+from runner.cases import Target, series
 
 DRAG, LIFT, PRESSURE = 5.57953523384, 0.010618948146, 0.11752016697    # featflow.de, DFG 2D-1
 OURS = "flotsamFoam"
@@ -18,7 +18,7 @@ no more). Peers: body-fitted O-grid with N cells per quarter of the cylinder (N 
 figures = {"dragError": ("drag, relative error", ""), "liftError": ("lift, relative error", ""), "pressureError": ("pressure difference, relative error", ""),
            "drag": ("drag coefficient", ""), "change": ("change of drag in the last second", "")}
 mainError, moreErrors = "dragError", ["pressureError", "liftError"]
-targets = {"dragError": (0.003, "drag within 0.3 % at N = 20")}
+targets = [Target("dragError", 0.003, "drag", 20)]
 
 runs = [
     *series(OURS, [10, 20, 40], quick=2, options={"mesh": "uniform"}),

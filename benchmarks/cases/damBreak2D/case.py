@@ -5,7 +5,7 @@ import os
 import numpy as np
 
 from runner import foam
-from runner.cases import Run, series
+from runner.cases import Run, Target, series
 
 COLUMN, GRAVITY = 0.05715, 9.81     # a [m], [m/s^2]
 TOE = 0.01                          # share of the water beyond the toe
@@ -19,7 +19,7 @@ is the mean deviation after the clock has been shifted by the best constant. Mes
 figures = {"toeError": ("toe against the common fine grid, rms", "a"), "frontError": ("front likewise, read with the same cells", "a"),
            "experiment": ("front against the experiment, clock fitted", "a"), "clockShift": ("clock shift", "T"), "volumeError": ("volume drift", "")}
 mainError = "toeError"
-targets = {"toeError": (0.01, "toe within 0.01 a at N = 32"), "frontError": (0.01, "front within 0.01 a at N = 32")}
+targets = [Target("toeError", 0.01, "toe [a]", 32, ""), Target("frontError", 0.01, "front [a]", 32, "")]
 
 SIZES = [8, 16, 32, 48]
 runs = [

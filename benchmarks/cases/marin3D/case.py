@@ -5,16 +5,17 @@ import os
 import numpy as np
 
 from runner import foam
-from runner.cases import series
+from runner.cases import Target, series
 
 title = """Kleefsman et al. 2005 (MARIN experiment, SPHERIC test 2): half tank with a symmetry plane, slip walls, uniform hexahedra with N cells over the box's 0.161 m,
 to t = 3 s; exact cell fractions at the start. Errors against the experiment on its own clock, t = 0.02 .. 3 s: water heights H1 .. H4 (integral of alpha over
-the column at x = 1.488, 0.992, 0.496, 2.638 m from the dry end; the file's header says why in this order) and pressure P1 (z = 0.021 m on the box). All solvers: function objects `sets`
+the column at x = 1.488, 0.992, 0.496, 2.638 m from the dry end; the file's header says why in this order) and pressures P1 to P4 on the box's front (z = 0.021 to 0.141 m),
+P5 to P8 on its top. All solvers: function objects `sets`
 and `probes` on cell values."""
-figures = {"H1": ("H1, rms error", "m"), "H2": ("H2, rms error", "m"), "H3": ("H3, rms error", "m"), "H4": ("H4, rms error", "m"), "P1": ("P1, rms error", "Pa"),
+figures = {**{f"H{i}": (f"H{i}, rms error", "m") for i in range(1, 5)}, **{f"P{i}": (f"P{i}, rms error", "Pa") for i in range(1, 9)},
            "peak": ("P1, peak before 1 s (experiment 9760)", "Pa"), "impulse": ("impulse of P1 over the experiment's", ""), "volumeError": ("volume drift", "")}
 mainError, moreErrors = "H2", ["H4", "P1"]
-targets = {"H2": (0.022, "H2 at N = 4 [m]"), "H4": (0.013, "H4 at N = 4 [m]"), "P1": (600, "P1 at N = 4 [Pa]")}
+targets = [Target("H2", 0.022, "H2 [m]", 4), Target("H4", 0.013, "H4 [m]", 4), Target("P1", 600, "P1 [Pa]", 4)]
 
 runs = [
     *series("flotsamFoam", [2, 3, 4], quick=1),
@@ -53,8 +54,9 @@ def errors(_run, case):
     heights = np.array([[time] + [_depth(os.path.join(files, f"H{i}_alpha.water.xy")) for i in (1, 2, 3, 4)] for time, files in foam.sampled(case, "heights")])
     result = {f"H{i}": _rms(np.interp(t, heights[:, 0], heights[:, i]) - experiment[:, 8 + i]) for i in (1, 2, 3, 4)}
     probes = foam.table(case, "pressure/*/p")
-    pressure = np.interp(t, probes[:, 0], probes[:, 1])
+    pressures = {f"P{i}": np.interp(t, probes[:, 0], probes[:, i]) for i in range(1, 9)}
     window = (t > 0.4) & (t < 1.5)
     volume = foam.table(case, "volume/*/*.dat")[:, 1]
-    return {**result, "P1": _rms(pressure - experiment[:, 1]), "peak": float(probes[probes[:, 0] < 1, 1].max()),
-            "impulse": float(np.trapz(pressure[window], t[window]) / np.trapz(experiment[window, 1], t[window])), "volumeError": float(volume[-1] / volume[0] - 1)}
+    result.update({name: _rms(p - experiment[:, int(name[1])]) for name, p in pressures.items()})
+    return {**result, "peak": float(probes[probes[:, 0] < 1, 1].max()),
+            "impulse": float(np.trapz(pressures["P1"][window], t[window]) / np.trapz(experiment[window, 1], t[window])), "volumeError": float(volume[-1] / volume[0] - 1)}
