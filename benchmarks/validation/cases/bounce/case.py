@@ -6,6 +6,7 @@ from runner import foam
 from runner.cases import Run
 from support import gas
 from support.compare import relative, small
+from support.dashpot import dampingRatio
 
 RADIUS, DENSITY, DROP, STIFFNESS, GRAVITY, END = 0.01, 590.0, 0.05, 1000.0, 9.81, 0.55
 DROPS = [DROP + 2e-4 * i for i in range(9)]
@@ -40,21 +41,6 @@ def prepare(_run, do):
     do("blockMesh")
 
 
-def _restitution(beta):
-    w = np.sqrt(abs(1 - beta**2))
-    if beta < 1:
-        return np.exp(-beta / w * (np.pi - np.arctan2(2 * beta * w, w**2 - beta**2)))
-    return np.exp(-2 * beta / w * np.log(beta + w))
-
-
-def _damping(e):
-    low, high = 0.0, 20.0
-    for _ in range(80):
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if _restitution(middle) > e else (low, middle)
-    return 2 * low * np.sqrt(STIFFNESS * MASS)
-
-
 def _contact(v, damping):
     """Speed, duration and gap at the end of a contact that begins with the speed v < 0: fourth order Runge-Kutta to zero force."""
     step, t, state = 2e-6, 0.0, np.array([0.0, v])
@@ -75,7 +61,7 @@ def _contact(v, damping):
 
 def _exact(e, drop):
     """(time, height) of the highest points of the gap after each contact, as long as they are above SMALLEST."""
-    damping, tops = _damping(e), []
+    damping, tops = 2 * dampingRatio(e) * np.sqrt(STIFFNESS * MASS), []
     t, y, v = 0.0, drop, 0.0
     while True:
         landing = (v + np.sqrt(v**2 + 2 * GRAVITY * y)) / GRAVITY
