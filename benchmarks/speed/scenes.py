@@ -31,6 +31,15 @@ def damBreak(root, runs, dim, n, solver):
     return Scene(f"dam break {dim}D", folder, COURANT / n / fastest, 5, 25 if n**dim > 2e4 else 65)
 
 
+def wideDamBreak(root, runs, n):
+    """The dam break in 3D in a tank twice as wide, which is symmetric: each half of it is the work of the narrow one."""
+    folder = os.path.join(runs, f"damBreak3D_{n}_wide")
+    startState.makeCase(folder, 3, n, "flotsamFoam", width=2)
+    fields, fastest = startState.state(root, runs, 3, n)
+    startState.writeFields(folder, startState.mirrored(fields))
+    return Scene("dam break 3D, two wide", folder, COURANT / n / fastest, 5, 25)
+
+
 def _copyTutorial(root, runs, tutorial, suffix=""):
     source, folder = os.path.join(root, "..", "tutorials", tutorial), os.path.join(runs, tutorial + suffix)
     shutil.rmtree(folder, ignore_errors=True)

@@ -16,12 +16,12 @@ TIME = 0.2                          # of the coarse run: the front is half way t
 CASE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "damBreak")
 
 
-def makeCase(folder, dim, n, solver):
-    """Case folder with its mesh; the fields follow with writeFields."""
+def makeCase(folder, dim, n, solver, width=1):
+    """Case folder with its mesh; the fields follow with writeFields. width: of the tank across the flow in 3D [m]."""
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(CASE, folder)
     os.makedirs(os.path.join(folder, "0"))
-    entries = {"solver": solver, "n": n, "nz": n if dim == 3 else 1, "depth": 1 if dim == 3 else 1 / n, "front": "wall" if dim == 3 else "empty"}
+    entries = {"solver": solver, "n": n, "nz": n * width if dim == 3 else 1, "depth": width if dim == 3 else 1 / n, "front": "wall" if dim == 3 else "empty"}
     with open(os.path.join(folder, "system", "parameters"), "w", encoding="utf-8") as out:
         out.writelines(f"{name} {value};\n" for name, value in entries.items())
     steps.write(folder, 1, 1)
@@ -76,6 +76,14 @@ def _stretched(values, axis, n):
     lower = np.minimum(at.astype(int), max(old - 2, 0))
     weight = (at - lower).reshape([-1 if k == axis else 1 for k in range(values.ndim)])
     return np.take(values, lower, axis) * (1 - weight) + np.take(values, np.minimum(lower + 1, old - 1), axis) * weight
+
+
+def mirrored(fields):
+    """A 3D state on twice the width: what a plane of symmetry at its end stands for."""
+    result = {name: np.concatenate([values, values[::-1]]) for name, values in fields.items()}
+    half = len(fields["U"])
+    result["U"][half:, ..., 2] *= -1
+    return result
 
 
 def state(root, runs, dim, n):
