@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # rebuild.sh [FOLDER]
-# Builds interFoam and interIsoFoam of the installed OpenFOAM from the distribution's own source package into FOLDER
-# (default ${XDG_CACHE_HOME:-~/.cache}/flotsam/peers-<version>), with -O2 and without loop vectorisation. The last line printed
-# is FOLDER. Needed because the binaries of Debian 12 are wrong on non-orthogonal meshes: see benchmarks/README.md.
+# Builds interFoam, interIsoFoam and overInterDyMFoam of the installed OpenFOAM from the distribution's own source package into
+# FOLDER (default ${XDG_CACHE_HOME:-~/.cache}/flotsam/peers-<version>), with -O2 and without loop vectorisation. The last line
+# printed is FOLDER. Needed because the binaries of Debian 12 are wrong on non-orthogonal meshes: see benchmarks/README.md.
 #
 # OPENFOAM_ORIG_DIR     folder of an earlier `apt-get source --download-only openfoam`: nothing is downloaded
 set -euo pipefail
@@ -13,15 +13,21 @@ fail() { echo "rebuild.sh: $*" >&2; exit 1; }
 version=$(dpkg-query -W -f '${source:Version}' libopenfoam 2> /dev/null) || fail "libopenfoam is not installed (scripts/installDependencies.sh)"
 package=$(dpkg-query -W -f '${source:Package}' libopenfoam)
 folder=${1:-${XDG_CACHE_HOME:-$HOME/.cache}/flotsam/peers-$version}
-solvers=(interFoam interIsoFoam)
+solvers=(interFoam interIsoFoam interFoam/overInterDyMFoam)     # folders
 
-# libraries whose headers the two solvers include
-libraries=(OpenFOAM OSspecific/POSIX fileFormats surfMesh meshTools finiteVolume sampling dynamicMesh dynamicFvMesh
+# libraries whose headers the solvers include
+libraries=(OpenFOAM OSspecific/POSIX fileFormats surfMesh meshTools finiteVolume sampling dynamicMesh dynamicFvMesh overset
     transportModels/incompressible transportModels/interfaceProperties transportModels/twoPhaseMixture
     transportModels/immiscibleIncompressibleTwoPhaseMixture transportModels/twoPhaseProperties
     TurbulenceModels/turbulenceModels TurbulenceModels/incompressible)
 
-if [ "$(cat "$folder/.stamp" 2> /dev/null)" = "$package $version" ]; then
+isComplete() {
+    local solver
+    [ "$(cat "$folder/.stamp" 2> /dev/null)" = "$package $version" ] || return
+    for solver in "${solvers[@]}"; do [ -x "$folder/${solver##*/}" ] || return; done
+}
+
+if isComplete; then
     echo "$folder"
     exit 0
 fi
@@ -51,7 +57,8 @@ fi
 archive=$(find "$source" -name "${package}_*.orig.tar.*" ! -name '*.asc' -print -quit)
 [ -n "$archive" ] || fail "no ${package}_*.orig.tar.* in $source"
 mkdir "$work/tree"
-tar -xf "$archive" -C "$work/tree" --strip-components=1 --wildcards --no-anchored META-INFO/api-info 'src/*' 'applications/solvers/multiphase/*'
+tar -xf "$archive" -C "$work/tree" --strip-components=1 --wildcards --no-anchored META-INFO/api-info 'src/*' \
+    'applications/solvers/multiphase/*' 'applications/solvers/incompressible/pimpleFoam/*'
 api=$(sed -n 's/^api=//p' "$work/tree/META-INFO/api-info")
 
 include=()
@@ -64,14 +71,20 @@ for library in "${libraries[@]}"; do
     include+=("-I$work/include/$library")
 done
 
-multiphase=$work/tree/applications/solvers/multiphase
+applications=$work/tree/applications/solvers
+multiphase=$applications/multiphase
 for solver in "${solvers[@]}"; do
+    name=${solver##*/}
+    own=()
+    if [ "$name" = overInterDyMFoam ]; then
+        own=(-I"$multiphase/interFoam" -I"$applications/incompressible/pimpleFoam/overPimpleDyMFoam" -ldynamicMesh -ltopoChangerFvMesh -loverset)
+    fi
     g++ -std=c++14 -O2 -fno-tree-loop-vectorize -w -ftemplate-depth=256 -fPIC -DOPENFOAM="$api" -DWM_DP -DWM_LABEL_SIZE=32 -DNoRepository \
-        -I"$multiphase/$solver" -I"$multiphase/VoF" "${include[@]}" -I"$work/tree/src/transportModels" "$multiphase/$solver/$solver.C" \
-        -o "$folder/$solver" -Wl,--no-as-needed -lfiniteVolume -lfvOptions -lmeshTools -lsampling -ldynamicFvMesh \
+        -I"$multiphase/$solver" -I"$multiphase/VoF" "${include[@]}" -I"$work/tree/src/transportModels" "$multiphase/$solver/$name.C" \
+        -o "$folder/$name" -Wl,--no-as-needed "${own[@]}" -lfiniteVolume -lfvOptions -lmeshTools -lsampling -ldynamicFvMesh \
         -lincompressibleTransportModels -linterfaceProperties -limmiscibleIncompressibleTwoPhaseMixture -ltwoPhaseMixture \
         -lturbulenceModels -lincompressibleTurbulenceModels -lwaveModels -lOpenFOAM -lPstream
-    echo "built $folder/$solver"
+    echo "built $folder/$name"
 done
 echo "$package $version" > "$folder/.stamp"
 echo "$folder"

@@ -24,7 +24,7 @@ class Run:
     options: dict = field(default_factory=dict)
     quick: bool = False         # also with --quick
     timeLimit: float = 1500     # wall seconds; a run that takes longer is a failed row
-    rebuilt: bool = False       # the mesh is non-orthogonal: interFoam and interIsoFoam as rebuilt by peers/rebuild.sh
+    rebuilt: bool = False       # the mesh is non-orthogonal: the solvers of interFoam's kind as rebuilt by peers/rebuild.sh
 
     @property
     def label(self):

@@ -38,7 +38,7 @@ def program(root, name, rebuilt):
         if not path:
             raise RuntimeError(f"{name} is not in {_buildFolder(root)}/bin (FLOTSAM_BUILD)")
         return path
-    if rebuilt and name in ("interFoam", "interIsoFoam"):
+    if rebuilt and name in ("interFoam", "interIsoFoam", "overInterDyMFoam"):
         return os.path.join(rebuiltFolder(root), name)
     path = shutil.which(name)
     if not path:

@@ -9,7 +9,7 @@ from . import table
 
 OURS = ("flotsamFoam", "transportTable")
 COLOURS = {"flotsamFoam": "tab:blue", "transportTable": "tab:blue", "interFoam": "tab:orange", "interIsoFoam": "tab:green", "simpleFoam": "tab:red",
-           "icoFoam": "tab:purple"}
+           "icoFoam": "tab:purple", "overInterDyMFoam": "tab:brown"}
 MARKERS = "osD^v"
 
 
