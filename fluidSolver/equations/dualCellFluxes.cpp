@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The element loops of the dual-cell transport: face values, model flux.
 #include "equations/dualCellTransport.hpp"
+#include "equations/profileMeans.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,6 @@
 #include "geometry/wallFilm.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace flotsam
 {

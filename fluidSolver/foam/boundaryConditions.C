@@ -8,7 +8,6 @@
 #include "vectorField.H"
 
 #include <algorithm>
-#include <cmath>
 
 namespace flotsam
 {
