@@ -159,6 +159,48 @@ void updateTimeControls(const Foam::Time& runTime, TimeControls& time)
     Foam::Info<< "system/controlDict was changed: time step " << describe(time).c_str() << Foam::endl;
 }
 
+/// Start of the run, which takes the clock along: the state stored at the start time, or its fields where there is none.
+void start(CoupledStep& step, RunOutput& output, const FoamFields& fields, Foam::Time& runTime)
+{
+    if (!output.readState(step, fields))
+    {
+        FlowState state;
+        state.time = runTime.value();
+        fields.readStart(state);
+        step.start(std::move(state), true);
+    }
+    runTime.setTime(step.fluid().state().time, runTime.timeIndex()); // OpenFOAM has it from the folder's name
+}
+
+void checkTimeStep(double wanted, const TimeControls& time, const CoupledStep& step)
+{
+    if (wanted < time.minDeltaT)
+        throw std::runtime_error(text("the flow limits the time step to ", wanted, " s at t = ", step.fluid().state().time, " s, below minDeltaT of system/controlDict, ",
+            time.minDeltaT, " s: ", step.fluid().describeFastest(), ". The solution has become unstable there: look at the last written fields,"
+            " reduce maxCo, or refine the mesh"));
+}
+
+/// After a step: the fields where someone looks at them, and at a written time the state to restart from. A stop signal makes it the last step.
+/// timeStep: before it was cut to meet that time.
+void write(Foam::Time& runTime, const Halo& halo, CoupledStep& step, FoamFields& fields, RunOutput& output, PhaseTimers& timers, double timeStep)
+{
+    const bool isStopping = halo.any(stopRequested());
+    const bool writeNow = halo.any(takeWriteRequest());
+    if (fields.isNeeded() || isStopping || writeNow)
+    {
+        PhaseTimer t(timers, Phase::Output);
+        fields.update(step.fluid().state(), step.cover(), step.scene().solids());
+    }
+    if (isStopping) runTime.writeAndEnd();
+    else if (writeNow) runTime.writeNow();
+    else runTime.write();
+    if (runTime.writeTime() || isStopping || writeNow)
+    {
+        output.writeState(step, timeStep);
+        step.forgetUnwritten();
+    }
+}
+
 enum class Task { Run, Check, WeighCells };
 
 void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
@@ -188,15 +230,7 @@ void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     CoupledStep step(adapter.mesh, halo, controls.fluid, controls.numerics, boundary, makeScene(bodies, gravity),
         bodies.bodies.empty() ? nullptr : &dem, timers);
     RunOutput output(runTime, adapter.mesh, halo, bodies, timers);
-
-    FlowState start;
-    start.time = runTime.value();
-    if (!output.readState(step, fields))
-    {
-        fields.readStart(start);
-        step.start(std::move(start), true);
-    }
-    runTime.setTime(step.fluid().state().time, runTime.timeIndex()); // OpenFOAM has it from the folder's name
+    start(step, output, fields, runTime);
     WriteTimes writeTimes(runTime, output.firstStart(), output.lastStep());
     output.begin(step);
     mesh.primitiveMesh::clearAddressing();  // cells, edges and the like that only the start needed; the geometry must stay: fields of the fvMesh are slices of it
@@ -211,10 +245,7 @@ void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         updateTimeControls(runTime, time);
         const CourantNumbers rates = courantRates(step);
         auto [wanted, limit] = nextTimeStep(rates, time, dt);
-        if (wanted < time.minDeltaT)
-            throw std::runtime_error(text("the flow limits the time step to ", wanted, " s at t = ", runTime.value(), " s, below minDeltaT of system/controlDict, ",
-                time.minDeltaT, " s: ", step.fluid().describeFastest(), ". The solution has become unstable there: look at the last written fields,"
-                " reduce maxCo, or refine the mesh"));
+        checkTimeStep(wanted, time, step);
         double used = writeTimes.setStep(wanted);
         if (used < 0.999*wanted) limit = "write";
         const double before = used;
@@ -225,21 +256,7 @@ void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         step.fluid().state().time = runTime.value(); // OpenFOAM's clock, to the last digit
 
         output.record(step, result, limit, rates*used);
-        const bool isStopping = halo.any(stopRequested());
-        const bool writeNow = halo.any(takeWriteRequest());
-        if (fields.isNeeded() || isStopping || writeNow)
-        {
-            PhaseTimer t(timers, Phase::Output);
-            fields.update(step.fluid().state(), step.cover(), step.scene().solids());
-        }
-        if (isStopping) runTime.writeAndEnd();
-        else if (writeNow) runTime.writeNow();
-        else runTime.write();
-        if (runTime.writeTime() || isStopping || writeNow)
-        {
-            output.writeState(step, dt);
-            step.forgetUnwritten();
-        }
+        write(runTime, halo, step, fields, output, timers, dt);
     }
     output.end(step);
 }

@@ -5,7 +5,6 @@
 #include "geometry/solid.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -5,7 +5,6 @@
 #include "geometry/solid.hpp"
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <random>
 #include <string>

@@ -122,7 +122,7 @@ void RunOutput::continueOwn(CoupledStep& step, const FoamFields& fields)
 {
     RunState state = files_.readOwn();
     takeSums(state);
-    if (!fields.fit(state.flow))
+    if (!fields.agreesWithCells(state.flow))
         Foam::Info<< "Warning: the volume fields of time " << runTime_.timeName() << " were changed since flotsamFoam wrote them. The changes do not count: the run"
             << " continues its stored state.\n    To have them count, remove " << runTime_.timeName() << "/flotsamState.h5 (in parallel of every processor*).\n" << Foam::endl;
     step.restore(std::move(state.flow), state.arrays, CoupledStep::Fields::Exact);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "demCoupling/core/rigidBody.hpp"
+#include "geometry/shape.hpp"
 
 namespace flotsam
 {

@@ -7,11 +7,11 @@
 namespace flotsam
 {
 
-/// A dashpot that sees the velocity of half a sub-step ago takes z = (rate of damping x sub-step) of it: more than there is when many
-/// spheres of a body touch at once. Such contacts keep 1/z of their damping, z that of all contacts
-/// with the same partner, times the number of partners that matter as much. A bar on the floor thus takes nothing from the damping of another that
-/// lies across it. The share is an atom type of the spheres (DampingLevel in contactLaw.hpp), so that LIGGGHTS' limits of normal
-/// and friction force hold for the damped force.
+/// A dashpot that sees the velocity of half a sub-step ago takes z = (rate of damping x sub-step) of it: more than there is when many spheres of
+/// a body touch at once. Such contacts keep 1/z of their damping, z that of all contacts of the body with the same partner, times the number
+/// of partners that damp it as strongly. The many contacts of a bar with the floor thus leave its damping against a bar that lies across it.
+/// The share is an atom type of the spheres (DampingLevel in contactLaw.hpp), so that LIGGGHTS' limits of normal and friction force hold for
+/// the damped force.
 class SphereDamping
 {
 public:

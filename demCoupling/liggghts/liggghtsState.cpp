@@ -8,8 +8,6 @@
 
 #include "fix_multisphere.h"
 
-#include <cmath>
-
 namespace flotsam
 {
 

@@ -9,7 +9,8 @@ namespace flotsam
 {
 
 ScaledFlowSystem::ScaledFlowSystem(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, int patience)
-:   mesh_(mesh), graph_(graph), halo_(halo), B_(mesh.dim + 1), velocity_(graph, mesh.nOwned, mesh.dim), choice_(patience), pressure_(mesh, graph, halo), heldPressure_(graph, mesh.nOwned), solids_(halo)
+:   mesh_(mesh), graph_(graph), halo_(halo), B_(mesh.dim + 1), velocity_(graph, mesh.nOwned, mesh.dim), choice_(patience),
+    pressure_(mesh, graph, halo), heldPressure_(graph, mesh.nOwned), solids_(halo)
 {
     const std::size_t n = mesh.nOwned;
     scale_.resize(n*B_);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Diagonal blocks (velocityBlock.hpp) or V-cycles (viscousBlock.hpp) for the velocities: what has cost less, by the iterations that solves take and not by clocks, so
-/// that a run can be repeated. A moving start at a viscous number of 1 takes diagonal blocks many times the iterations, a smooth flow at the same number hardly more.
+/// Whether diagonal blocks (velocityBlock.hpp) or V-cycles (viscousBlock.hpp) precondition the velocities: what has cost less. Cost is counted in iterations, not by
+/// clocks, so that a run can be repeated. The viscous number alone does not tell: at 1 diagonal blocks take many times the iterations of cycles in a moving
+/// start, hardly more in a smooth flow.
 #pragma once
 
 namespace flotsam
@@ -31,7 +32,7 @@ private:
     double worth() const;
 
     int patience_;
-    bool canPay_ = false;       // cycles, at the present viscous number
+    bool canPay_ = false;       // whether cycles can, at the present viscous number
     bool usesCycles_ = false;
     bool isFirst_ = true;       // no system seen
     int nSolves_ = 0;           // counted with the present choice

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The element loops of the dual-cell transport: face values, model flux.
 #include "equations/dualCellTransport.hpp"
+#include "equations/profileMeans.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +59,38 @@ struct FaceGeometry
     static double atFace(double sum, double a, double b) { return weights.far*sum + (weights.near - weights.far)*(a + b); }
 };
 
+/// The corners of an element as its faces see them upwind.
+template<int dim>
+struct UpwindCorners
+{
+    static constexpr int n = dim + 1;
+    ProfileKind kind[n];
+    double alpha[n], exchanged[n];  // exchanged: value of the upwind exchange
+    bool hasProfile = false;
+
+    UpwindCorners(const ProfileReconstruction& reconstruction, const std::vector<double>& nodalAlpha, const std::vector<double>& nodalExchanged, const int* nodes)
+    {
+        for (int a = 0; a < n; ++a)
+        {
+            kind[a] = reconstruction.kind(nodes[a]);
+            hasProfile = hasProfile || kind[a] > ProfileKind::Bulk;
+            alpha[a] = nodalAlpha[nodes[a]];
+            exchanged[a] = nodalExchanged[nodes[a]];
+        }
+    }
+
+    /// Face value of a corner without a profile, less that of the upwind exchange. In a cell of traces it differs from the cell's own by these at most.
+    double plain(int upwind, int other) const
+    {
+        const double most = kind[upwind] == ProfileKind::Tail ? std::min(alpha[upwind], 1 - alpha[upwind]) : 0;
+        return alpha[upwind] + std::clamp(alpha[other] - alpha[upwind], -most, most) - exchanged[upwind];
+    }
+
+    bool hasSeveralFronts() const { return std::count(kind, kind + n, ProfileKind::Front) > 1; }
+};
+
 /// Faces with a profile upwind, of which the means over what passes during the step are computed together.
+/// offset: of the face's centroid from the upwind node; velocity: at the centroid.
 class SweptFaces
 {
 public:
@@ -71,9 +103,22 @@ public:
 
     ~SweptFaces() { evaluate(); }
 
-    void addFront(const Face& face, double psi, double swept)
+    template<int dim>
+    void addFront(const Face& face, const NodeProfile& front, const double* offset, const double* velocity, double dt)
     {
-        addMean(psi, swept);
+        double direction[dim];
+        const double psi = front.value + front.steepness*bentDistance<dim>(front, offset, direction);
+        addMean(psi, front.steepness*dt*dot<dim>(direction, velocity));
+        addFace(face);
+    }
+
+    /// gradient: of the level in the element.
+    template<int dim>
+    void addRoof(const Face& face, const NodeProfile& roof, const double* gradient, const double* offset, const double* velocity, double dt)
+    {
+        const double length = 1e-30 + std::sqrt(dot<dim>(gradient, gradient));
+        const double scale = std::min(roof.roofFactor, 1/length)*roof.steepness;
+        addMean(roof.value + scale*dot<dim>(gradient, offset), scale*dt*dot<dim>(gradient, velocity));
         addFace(face);
     }
 
@@ -147,69 +192,53 @@ void DualCellTransport::addFaceValues(const Arguments& in)
         const double* flux = &flux_[std::size_t(active_[k])*Pairs::count];
         double* antiFlux = &antiFlux_[k*Pairs::count];
 
-        ProfileKind kinds[n];
-        double own[n], exchanged[n];
-        bool hasProfile = false;
-        for (int a = 0; a < n; ++a)
-        {
-            kinds[a] = reconstruction_.kind(nodes[a]);
-            hasProfile = hasProfile || kinds[a] > ProfileKind::Bulk;
-            own[a] = in.alpha[nodes[a]];
-            exchanged[a] = upwind_[nodes[a]];
-        }
-        const auto plain = [&](int upwind, int other) {
-            const double most = kinds[upwind] == ProfileKind::Tail ? std::min(own[upwind], 1 - own[upwind]) : 0;
-            return own[upwind] + std::clamp(own[other] - own[upwind], -most, most) - exchanged[upwind];
-        };
-        if (!hasProfile)
+        const UpwindCorners<dim> corners(reconstruction_, in.alpha, upwind_, nodes);
+        if (!corners.hasProfile)
         {
             for (int p = 0; p < Pairs::count; ++p)
             {
                 const int a = Pairs::first[p], b = Pairs::second[p];
-                const double fromA = plain(a, b), fromB = plain(b, a);
+                const double fromA = corners.plain(a, b), fromB = corners.plain(b, a);
                 antiFlux[p] = dt*flux[p]*(flux[p] > 0 ? fromA : fromB);
             }
             continue;
         }
-        if (std::count(kinds, kinds + n, ProfileKind::Front) > 1)
+        if (corners.hasSeveralFronts())
         {
             frontElements_.push_back(k);
         }
 
         double gradient[dim];
         reconstruction_.levelGradient<dim>(e, gradient);
-        const double gradientLength = 1e-30 + std::sqrt(dot<dim>(gradient, gradient));
         const FaceGeometry<dim> geometry(mesh_, in.u, nodes);
         for (int p = 0; p < Pairs::count; ++p)
         {
             const int a = Pairs::first[p], b = Pairs::second[p], upwind = flux[p] > 0 ? a : b;
-            if (kinds[upwind] <= ProfileKind::Bulk)
+            const ProfileKind kind = corners.kind[upwind];
+            if (kind <= ProfileKind::Bulk)
             {
-                antiFlux[p] = dt*flux[p]*plain(upwind, a + b - upwind);
+                antiFlux[p] = dt*flux[p]*corners.plain(upwind, a + b - upwind);
                 continue;
             }
             const NodeProfile& profile = reconstruction_.profile(nodes[upwind]);
-            const SweptFaces::Face face{&antiFlux[p], dt*flux[p], exchanged[upwind], kinds[upwind] == ProfileKind::Film ? &profile : nullptr};
+            const SweptFaces::Face face{&antiFlux[p], dt*flux[p], corners.exchanged[upwind], kind == ProfileKind::Film ? &profile : nullptr};
             const double* velocity = geometry.velocity[p];
             double offset[dim];
             for (int d = 0; d < dim; ++d)
             {
                 offset[d] = geometry.centroid[p][d] - geometry.corner[upwind][d];
             }
-            if (face.film)
+            if (kind == ProfileKind::Film)
             {
                 faces.addFilm<dim>(face, offset, velocity, dt);
             }
-            else if (kinds[upwind] == ProfileKind::Front)
+            else if (kind == ProfileKind::Front)
             {
-                double direction[dim];
-                const double psi = profile.value + profile.steepness*bentDistance<dim>(profile, offset, direction);
-                faces.addFront(face, psi, profile.steepness*dt*dot<dim>(direction, velocity));
+                faces.addFront<dim>(face, profile, offset, velocity, dt);
             }
             else
             {
-                const double scale = std::min(profile.roofFactor, 1/gradientLength)*profile.steepness;
-                faces.addFront(face, profile.value + scale*dot<dim>(gradient, offset), scale*dt*dot<dim>(gradient, velocity));
+                faces.addRoof<dim>(face, profile, gradient, offset, velocity, dt);
             }
         }
     }

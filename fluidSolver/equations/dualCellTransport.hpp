@@ -19,8 +19,6 @@
 #include "equations/volumeFlux.hpp"
 #include "geometry/cover.hpp"
 
-#include <cmath>
-
 namespace flotsam
 {
 

@@ -5,7 +5,6 @@
 
 #include "core/nodeGraph.hpp"
 
-#include <array>
 #include <vector>
 
 namespace flotsam

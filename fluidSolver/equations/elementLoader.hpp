@@ -10,7 +10,6 @@
 #include "geometry/wallFilm.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace flotsam
 {
@@ -38,8 +37,8 @@ struct NodalData
     std::vector<double> film;                   ///< FilmNode::share; empty: no films
 };
 
-/// Ratio of densities within the three time levels of an element from which its residual, and its inertia where its mean density counts, are taken
-/// first order in time: a second order formula of a density that falls a thousandfold within two steps is a negative mass.
+/// Where the density of an element changes by more than this factor within its three time levels, its residual is first order in time, and so is its inertia where its mean
+/// density counts: with a density that falls a thousandfold within two steps the second order formula gives a negative mass.
 constexpr double steepDensity = 1.5;
 
 inline bool isSteep(double now, double old, double older)
@@ -47,13 +46,14 @@ inline bool isSteep(double now, double old, double older)
     return std::max({now, old, older}) > steepDensity*std::min({now, old, older});
 }
 
-/// Share of the first order inertia below which a node's own of second order is not used: nodes that have just lost their liquid.
+/// A node's inertia is second order only where that is at least this share of the first order one: nodes that have just lost their liquid have less.
 constexpr double leastInertia = 0.5;
 
-/// Of first order where second order leaves too little inertia, and where its rate of mass exceeds first order's by more than the inertia. That difference is balanced by
-/// the last step's fluxes alone; where these are not known (beside moving solids, of elements in which the density did not vary then) it is taken from the neighbours
-/// (removeMassDefect()): nodes that have lost their liquid and get it back in the next step would be moved by a multiple of their neighbours' velocity, and several of
-/// them together at any speed. isFirstOrder: whatever the step is.
+/// What a node has of its own densities. First order in time in two cases: second order leaves too little inertia (the node has just lost its liquid), or its rate of mass
+/// exceeds that of first order by more than the inertia (the node has lost its liquid and gets it back in the next step). Only the last step's fluxes balance
+/// that difference. Where these are not known (beside moving solids, in elements in which the density did not vary then) it is taken from the neighbours
+/// (removeMassDefect()): the node would be moved by a multiple of their velocity, and several such nodes together at any speed.
+/// isFirstOrder: first order in any case.
 inline NodeInertia nodeInertia(int node, int dim, bool isFirstOrder, const FlowStepData& step, const NodalData& nodal)
 {
     const double now = nodal.rho[node], old = nodal.rhoOld[node], older = nodal.rhoOlder[node];
@@ -79,7 +79,7 @@ inline void setNodeInertia(const SimplexMesh& mesh, const FlowStepData& step, No
     for (int i = 0; i < mesh.nNodes; ++i) nodal.own[i] = nodeInertia(i, mesh.dim, false, step, nodal);
 }
 
-/// By element means, and by the nodes' values where these count.
+/// By the element's mean densities; where the density varies, by those of its nodes.
 template<int D>
 inline bool isSteepElement(const ElementData<D>& data, const int* nodes, const NodalData& nodal, double rhoOld, double rhoOlder)
 {
@@ -117,12 +117,13 @@ struct PairFluxes
     Real lastMass[count];               ///< of mass in the last step, by the last density where none have been kept [kg/s]
 };
 
-/// Convection by the transport's mass fluxes, extrapolated from the middles of the last steps to the end of this one as BDF2 of the nodes' masses asks
-/// (massFluxes.hpp); without extrapolation and beside nodes of first order moved there with the mean density.
-/// Half the flux is the skew-symmetric form, in which a node's own velocity does not appear: a gas node through which in one step more mass flows than its
-/// dual cell holds would be moved by a multiple of its neighbours' differences, in splashes to 100 m/s and more.
-/// What exceeds the smaller of the two nodes' masses, shared among the D pairs that a node has in an element, is therefore taken upwind: the differences
-/// of velocities around a node then do not move it by more than themselves. (All of the mass for each pair: in 3D spikes remain, and a dam break lost half its water.)
+/// Convection by the transport's mass fluxes at the end of the step. Between nodes of second order they are extrapolated from the means over this step and the last, as
+/// BDF2 of the nodes' masses asks (massFluxes.hpp). Elsewhere, and without fluxes of the last step, the mean over the step is used, plus the mean density times what
+/// the volume flux at the end differs from its mean.
+/// Half the flux is the skew-symmetric form, in which a node's own velocity does not appear. A gas node through which more mass flows in one step than its dual cell
+/// holds would then be moved by a multiple of its neighbours' differences, in splashes to 100 m/s and more. So what exceeds the smaller of the two nodes'
+/// masses, shared among the D pairs that a node has in an element, is taken upwind: the differences of velocities around a node then move it by no more
+/// than themselves. (With all of the mass for each pair spikes remain in 3D, and a dam break lost half its water.)
 /// source: fluxes [kg/s or m^D/s]; share: of the last step's in the extrapolation.
 template<int D, class Real>
 inline void loadConvection(const PairFluxes<D, Real>& source, double share, const FluidProperties& fluid, const NumericsControls& controls, ElementData<D, Real>& data)
@@ -178,13 +179,15 @@ inline ElementRates<Real> addFineScale(const Real* fineScale, const Real& h, dou
 template<int D, class Real>
 inline void loadTauContinuity(const ElementRates<Real>& rates, const Real& h, const NumericsControls& controls, ElementData<D, Real>& data)
 {
-    // beside the surface waves grow with less, elsewhere it only resists what P1 cannot do without divergence, the more the smaller the step (docs/numerics.md)
+    // beside the surface all of it, as waves grow with less; elsewhere it only resists motions that P1 cannot make free of divergence, the more the
+    // smaller the step (docs/numerics.md)
     const double timeShare = data.isVarying ? 1 : controls.tauContBulk;
     data.tauCont = controls.tauContFactor*(controls.tauContWithTimeStep ? rates.tauContinuity(data.rho, h, timeShare)
         : steadyTauContinuity<Real>(data.rho, squared<D>(data.advection), h, data.mu/data.rho));
 }
 
-/// Of the grad-div term, whose length in a film is the gap's: its conductance lets in what a body's motion displaces, the velocity's divergence there means nothing.
+/// Factor of the grad-div term in a film: the length in tau_cont is that of the gap there. The film's conductance lets in what a body's motion displaces, so the
+/// velocity's divergence means nothing.
 inline double filmContinuity(const int* nodes, int n, const std::vector<double>& film)
 {
     double share = 0;
@@ -210,7 +213,7 @@ inline bool loadMeans(int e, const SimplexMesh& mesh, const FlowStepData& step, 
     const int* nodes = &mesh.elements[std::size_t(e)*N];
     data.volume = cut ? cut->volume : mesh.volume[e];
     data.gradN = &mesh.gradN[std::size_t(e)*N*D];
-    // sums of their own: through the references every addition would wait for the last one's way to memory and back
+    // sums in variables of their own: added up in `data`, every addition would wait until the last one has been written to memory and read back
     double rho = 0, rhoOld = 0, rhoOlder = 0, mu = 0, advection[D] = {};
     const double inverse = cut ? 1/data.volume : 0;
     for (int a = 0; a < N; ++a)
@@ -262,8 +265,8 @@ inline bool loadResidualData(int e, const SimplexMesh& mesh, const FlowStepData&
     return true;
 }
 
-/// -(c1 rho^n u^n + c2 rho^(n-1) u^(n-1)) of corner a with the element's densities: the velocity's own history, loaded before, times one of them, and what the
-/// other adds. A third of the reads of the sum itself, in most elements.
+/// -(c1 rho^n u^n + c2 rho^(n-1) u^(n-1)) of corner a with the element's densities: rho^n times the velocity's own history, loaded before, and where rho^(n-1) is
+/// another the difference. In most elements it is not, which saves two thirds of the reads.
 template<int D>
 inline void loadMomentumHistory(int a, int node, double old, double older, const FlowStepData& step, const TimeScheme& time, ElementData<D>& data)
 {

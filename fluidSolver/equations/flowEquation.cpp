@@ -8,7 +8,6 @@
 #include "equations/shutPockets.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace flotsam
 {

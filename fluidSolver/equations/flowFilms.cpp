@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// What flows along a wall under a body that lies on it.
 ///
-/// The cut leaves a film there (WallFilm) that has a pressure but carries hardly anything: its inertia would hold the body down, and by far the largest mass in the scene would then push against
-/// the contact. Beds and logs are not that smooth. So an unresolved layer, a part of an element thick, lets fluid in and out in proportion to the gradient of pressure and
-/// weight: Reynolds' equation, with the speed that the gradient gives in the time T = sqrt(h/g). It fades as the gap grows to one element, which the cut carries.
+/// The cut leaves a film there (WallFilm) that has a pressure but carries hardly anything: its inertia would hold the body down, and by far the largest mass in the
+/// scene would then push against the contact. Beds and logs are not that smooth. So an unresolved layer, a part of an element thick, lets fluid in and out in
+/// proportion to the gradient of pressure and weight: Reynolds' equation, with the speed that the gradient gives in the time T = sqrt(h/g). It fades as the gap
+/// grows to one element, which the cut carries.
 #include "core/patchFaces.hpp"
 #include "equations/flowEquation.hpp"
 

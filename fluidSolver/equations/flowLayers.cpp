@@ -2,9 +2,10 @@
 /// Water between solids that lie on each other.
 ///
 /// No element lies between them, so no pressure of the flow acts on what they cover of each other (CoveredFacet), and the fluid around would press them together: a bar
-/// 2 cm thick under 10 cm of water with eight times its weight. Driftwood is not that smooth: water gets between. So the nodes there, which are inside the solids, have a pressure,
-/// which acts on both solids alike; the continuity rows say that the volume that they leave each other comes from the fluid at the rim, along an unresolved layer as under bodies on walls
-/// (flowFilms.cpp): in proportion to the gradient of pressure and weight. What the layer holds is not fluid to the transport: it moves when the gap reaches an element.
+/// 2 cm thick under 10 cm of water with eight times its weight. Driftwood is not that smooth: water gets between. So the nodes there, which are inside the solids, have
+/// a pressure, which acts on both solids alike. Their continuity rows say that the volume between the solids is filled from the fluid at the rim, along an
+/// unresolved layer as under bodies on walls (flowFilms.cpp): in proportion to the gradient of pressure and weight. What the layer holds is not fluid to the
+/// transport: it moves when the gap reaches an element.
 #include "equations/flowEquation.hpp"
 #include "equations/rigidCoupling.hpp"
 #include "equations/shutPockets.hpp"
@@ -236,9 +237,9 @@ void FlowEquation::assembleLayers()
 
 /// What solids cover of each other, and what it makes room for.
 ///
-/// Every solid has the pressure on all of its own covered surface: with the cut one it is closed. What two solids cover of each other is not the same surface, though, where the cut
-/// between them rounds a corner or one overlaps another: the sum of the forces on both is that on a small volume between them (CoveredVolume), which would be a force without a reaction.
-/// It is shared out, by P1 shares that are 1 at the nodes nearest to a solid: each share is the force on a closed surface, too.
+/// The pressure acts on all of a solid's covered surface, which with the cut one is closed. What two solids cover of each other is not the same surface, though, where
+/// the cut between them rounds a corner or one overlaps another: the sum of the forces on both is that on a small volume between them (CoveredVolume), which
+/// would be a force without a reaction. It is shared out, by P1 shares that are 1 at the nodes nearest to a solid: each share is the force on a closed surface, too.
 template<int D>
 void FlowEquation::coupleLayers()
 {

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "core/boundary.hpp"
-#include "core/controls.hpp"
 #include "core/flowState.hpp"
 #include "core/timeScheme.hpp"
 #include "equations/dualCellTransport.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "equations/frontFit.hpp"
+#include "equations/profileMeans.hpp"
 #include "equations/profileReconstruction.hpp"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 /// Gravity as a force per element that is exactly the gradient of a P1 function when the fluid rests.
 ///
 /// In an element with a density gradient, f = sum_k grad N_k rho_k g.(x_k - x_G) = grad I_h(rho g.x) - (g.x_G) grad rho_h,
-/// x_G: foot on the nearest surface plane, mean over the nodes; between two surfaces on the one that the element belongs to. With a flat surface g.x_G is one number and the nodal
-/// pressure p_k = rho_k g.(x_k - x_G) cancels f in every element, for any mesh and any nodal rho. Elsewhere f = rho g.
+/// x_G: foot on the nearest surface plane, mean over the nodes; between two surfaces on the one that the element belongs to. With a flat surface g.x_G is one number
+/// and the nodal pressure p_k = rho_k g.(x_k - x_G) cancels f in every element, for any mesh and any nodal rho. Elsewhere f = rho g.
 ///
 /// rho_k is there only what the surface accounts for (surfaceDensity()); the rest weighs f = rho g. Spray or mist above a flat surface would
 /// otherwise weigh nothing: its force would be a gradient as well, and the pressure would carry it.
@@ -15,8 +15,8 @@
 namespace flotsam
 {
 
-/// Density of the nodes as far as it belongs to their surface plane, as if that were anywhere within one element length: with it alpha between
-/// the profiles. Beyond, the fluid of the node's own side. nNodes; rho where a node has no plane. width: nNodes [m].
+/// Density of the nodes as far as their surface plane accounts for it: of the fluid of the other side a node has no more than the profile would give it
+/// if the plane were one element length nearer. nNodes; rho where a node has no plane. width: nNodes [m].
 void surfaceDensity(const SimplexMesh& mesh, const FluidProperties& fluid, const NumericsControls& controls, const InterfacePlanes& planes,
     const std::vector<double>& width, const std::vector<double>& alpha, std::vector<double>& result);
 

@@ -6,24 +6,32 @@
 namespace flotsam
 {
 
+namespace
+{
+
+using Vector = std::vector<double>;
+
+/// image = rows of the matrix, each over its diagonal, times v, whose halo is brought up to date.
+void multiplyScaled(const NodeGraph& graph, const Halo& halo, const Vector& matrix, Vector& v, Vector& image)
+{
+    halo.update(v, 1);
+    for (int i = 0; i < int(image.size()); ++i)
+    {
+        double s = 0;
+        for (int k = graph.rowStart[i]; k < graph.rowStart[i + 1]; ++k)
+        {
+            s += matrix[k]*v[graph.column[k]];
+        }
+        image[i] = s/matrix[graph.diagonal[i]];
+    }
+}
+
+} // namespace
+
 int solveJacobiBicgstab(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const std::vector<double>& matrix,
     const std::vector<double>& rhs, std::vector<double>& x, double tolerance, int maxIterations)
 {
-    using Vector = std::vector<double>;
     const int n = mesh.nOwned;
-    // rows scaled by their diagonal
-    const auto apply = [&](Vector& v, Vector& image) {
-        halo.update(v, 1);
-        for (int i = 0; i < n; ++i)
-        {
-            double s = 0;
-            for (int k = graph.rowStart[i]; k < graph.rowStart[i + 1]; ++k)
-            {
-                s += matrix[k]*v[graph.column[k]];
-            }
-            image[i] = s/matrix[graph.diagonal[i]];
-        }
-    };
     const auto dots = [&](const Vector& a, const Vector& b, const Vector& c, double* result) {  // {a.b, c.c}
         result[0] = result[1] = 0;
         for (int i = 0; i < n; ++i)
@@ -35,7 +43,7 @@ int solveJacobiBicgstab(const SimplexMesh& mesh, const NodeGraph& graph, const H
     };
 
     Vector r(n), v(n), t(n), p(mesh.nNodes), s(mesh.nNodes);
-    apply(x, v);
+    multiplyScaled(graph, halo, matrix, x, v);
     double size = 0, pair[2];
     for (int i = 0; i < n; ++i)
     {
@@ -54,14 +62,14 @@ int solveJacobiBicgstab(const SimplexMesh& mesh, const NodeGraph& graph, const H
             halo.update(x, 1);
             return iteration;
         }
-        apply(p, v);
+        multiplyScaled(graph, halo, matrix, p, v);
         dots(v, shadow, v, pair);
         const double step = rho/pair[0];
         for (int i = 0; i < n; ++i)
         {
             s[i] = r[i] - step*v[i];
         }
-        apply(s, t);
+        multiplyScaled(graph, halo, matrix, s, t);
         dots(t, s, t, pair);
         const double omega = pair[1] > 0 ? pair[0]/pair[1] : 0;
         for (int i = 0; i < n; ++i)

@@ -19,6 +19,41 @@ constexpr double solverTolerance = 1e-10;
 constexpr int solverIterations = 200;
 constexpr double runaway = 1;       // beyond 0 and 1; overshoots of this form are some tenths
 
+/// The fluid part of an element and what the flow carries in it.
+template<int dim>
+struct CarryingElement
+{
+    static constexpr int n = dim + 1;
+    double volume, first[n], mass[n][n];        // int N_a, int N_a N_b
+    double carried[n][dim], mean[dim] = {};     // int N_a (u + u'); mean velocity
+
+    CarryingElement(const SimplexMesh& mesh, int e, const CutElement* cut, const std::vector<double>& u, const std::vector<double>& fineScale)
+    {
+        volume = cut ? cut->volume : mesh.volume[e];
+        for (int a = 0; a < n; ++a)
+        {
+            first[a] = cut ? cut->first[a] : volume/n;
+            for (int b = 0; b < n; ++b)
+            {
+                mass[a][b] = cut ? cut->second[a*n + b] : volume*(a == b ? 2 : 1)/(n*(n + 1));
+            }
+        }
+        const int* nodes = &mesh.elements[std::size_t(e)*n];
+        for (int a = 0; a < n; ++a)
+        {
+            for (int d = 0; d < dim; ++d)
+            {
+                carried[a][d] = fineScale.empty() ? 0 : first[a]*fineScale[std::size_t(e)*dim + d];
+                for (int b = 0; b < n; ++b)
+                {
+                    carried[a][d] += mass[a][b]*u[std::size_t(nodes[b])*dim + d];
+                }
+                mean[d] += carried[a][d]/volume;
+            }
+        }
+    }
+};
+
 } // namespace
 
 PhaseFieldSupg::PhaseFieldSupg(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const NumericsControls& controls)
@@ -76,45 +111,22 @@ void PhaseFieldSupg::assemble(const std::vector<double>& alpha, const TimeLevels
         const CutElement* cut = cover && cover->state[e] == ElementState::Cut ? &cover->cuts[cover->cutIndex[e]] : nullptr;
         const int* nodes = &mesh_.elements[std::size_t(e)*n];
         const double* g = &mesh_.gradN[std::size_t(e)*n*dim];
-        const double volume = cut ? cut->volume : mesh_.volume[e];
-
-        double carried[n][dim], mean[dim] = {};     // int N_j (u + u'); mean velocity
-        double mass[n][n], first[n];
-        for (int a = 0; a < n; ++a)
-        {
-            first[a] = cut ? cut->first[a] : volume/n;
-            for (int b = 0; b < n; ++b)
-            {
-                mass[a][b] = cut ? cut->second[a*n + b] : volume*(a == b ? 2 : 1)/(n*(n + 1));
-            }
-        }
-        for (int a = 0; a < n; ++a)
-        {
-            for (int d = 0; d < dim; ++d)
-            {
-                carried[a][d] = fineScale.empty() ? 0 : first[a]*fineScale[std::size_t(e)*dim + d];
-                for (int b = 0; b < n; ++b)
-                {
-                    carried[a][d] += mass[a][b]*u[std::size_t(nodes[b])*dim + d];
-                }
-                mean[d] += carried[a][d]/volume;
-            }
-        }
-        double speed = 0, width = 0, along[n] = {};     // along = mean velocity . grad N
+        const CarryingElement<dim> element(mesh_, e, cut, u, fineScale);
+        double squaredSpeed = 0, width = 0, along[n] = {};  // along = mean velocity . grad N
         for (int d = 0; d < dim; ++d)
         {
-            speed += mean[d]*mean[d];
+            squaredSpeed += element.mean[d]*element.mean[d];
         }
         for (int a = 0; a < n; ++a)
         {
             width += width_[nodes[a]]/n;
             for (int d = 0; d < dim; ++d)
             {
-                along[a] += mean[d]*g[a*dim + d];
+                along[a] += element.mean[d]*g[a*dim + d];
             }
         }
-        const double tau = 1/std::sqrt(4/(dt*dt) + 4*speed/(mesh_.h[e]*mesh_.h[e]));
-        const double diffusion = gamma*width*volume, compression = compressionFactor<dim>(nodes, g, extrapolated_);
+        const double tau = 1/std::sqrt(4/(dt*dt) + 4*squaredSpeed/(mesh_.h[e]*mesh_.h[e]));
+        const double diffusion = gamma*width*element.volume, compression = compressionFactor<dim>(nodes, g, extrapolated_);
 
         for (int a = 0; a < n; ++a)
         {
@@ -129,12 +141,12 @@ void PhaseFieldSupg::assemble(const std::vector<double>& alpha, const TimeLevels
                 double advection = 0, stiffness = 0;
                 for (int d = 0; d < dim; ++d)
                 {
-                    advection -= g[a*dim + d]*carried[b][d];
+                    advection -= g[a*dim + d]*element.carried[b][d];
                     stiffness += g[a*dim + d]*g[b*dim + d];
                 }
-                const double inertia = mass[a][b] + tau*along[a]*first[b];
+                const double inertia = element.mass[a][b] + tau*along[a]*element.first[b];
                 matrix_[graph_.slot(i, (std::size_t(e)*n + a)*n + b)] += levels.c0*inertia + advection
-                    + tau*volume*along[a]*along[b] + diffusion*stiffness;
+                    + tau*element.volume*along[a]*along[b] + diffusion*stiffness;
                 rhs_[i] -= inertia*(levels.c1*alpha[j] + levels.c2*alphaOld_[j]) - diffusion*compression*stiffness*extrapolated_[j];
                 rowBalance_[i] += advection;
             }

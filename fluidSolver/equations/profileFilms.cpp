@@ -5,6 +5,8 @@
 
 #include "geometry/cover.hpp"
 
+#include <cmath>
+
 namespace flotsam
 {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Cells with one front: its direction and curvature from the neighbours.
 #include "equations/frontFit.hpp"
+#include "equations/profileMeans.hpp"
 #include "equations/profileReconstruction.hpp"
 
 #include "geometry/cover.hpp"

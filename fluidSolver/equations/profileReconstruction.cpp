@@ -2,7 +2,10 @@
 #include "equations/profileReconstruction.hpp"
 
 #include "core/elementaryFunctions.hpp"
+#include "equations/profileMeans.hpp"
 #include "geometry/cover.hpp"
+
+#include <cmath>
 
 namespace flotsam
 {

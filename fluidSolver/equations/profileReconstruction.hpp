@@ -7,10 +7,8 @@
 #pragma once
 
 #include "equations/dualCells.hpp"
-#include "equations/profileMeans.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace flotsam
 {

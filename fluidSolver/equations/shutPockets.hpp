@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Fluid that bodies and walls shut in within gaps of an element or less.
 ///
-/// A pocket without a node that has whole elements around it, and that no node outside the solids joins to fluid elsewhere, has a pressure level of its own, and nothing fixes it but the bodies
-/// around: their motion must keep the pocket's volume to the last bit, at any time step. No pocket of that size has a meaning (gaps below the mesh carry what the mesh can carry),
-/// beside structures alone there is no solution, beside bodies none that iterations find. So pockets are open to the pressure of the fluid around, for what it does to the solids.
-/// That is taken through the solids and balances neither weight nor motion within the pocket: at the corners of a pocket around a single node, a hundredth of an element deep, 0.05 became
-/// 16 m/s in a step. The fluid of a pocket therefore moves with the nearest solid. Nodes in solids that a pocket shares with fluid elsewhere are left to that: as joined to it through them, pockets
-/// have had 1e5 Pa and 110 m/s.
-/// Gaps between solids of less than a fiftieth of an element are pockets, too, open at their ends or not: what solids that move against each other press out of them is as fast as the gap is
-/// thin, and what would hold it back, friction, is not resolved.
+/// A pocket has no node with whole elements all around, and no node outside the solids joins it to other fluid. It has a pressure level of its own, which nothing fixes but
+/// the solids around: their motion must keep the pocket's volume to the last bit, at any time step. Among structures alone that has no solution, beside bodies
+/// none that iterations find. Nor has the flow in a pocket of that size a meaning: gaps below the mesh carry what the mesh can carry.
+///
+/// So pockets are not solved for. What acts on the solids is the pressure of the nearest other fluid, taken through the solids. It balances neither weight nor
+/// motion within the pocket (at the corners of a pocket around a single node, a hundredth of an element deep, 0.05 became 16 m/s in a step): the fluid of a
+/// pocket moves with the nearest solid. Nodes in solids that a pocket shares with other fluid belong to that fluid and do not join the two: pockets that
+/// they joined have had 1e5 Pa and 110 m/s.
+///
+/// Gaps between solids of less than a fiftieth of an element are pockets, too, open at their ends or not: the thinner the gap, the faster the fluid that solids press out
+/// of it when they move against each other, and the friction that would hold it back is not resolved.
 /// Among the surfaces that solids cover of each other the pockets' pressures are unknowns of the layer there (flowLayers.cpp).
 #pragma once
 

@@ -8,7 +8,6 @@
 #include "vectorField.H"
 
 #include <algorithm>
-#include <cmath>
 
 namespace flotsam
 {
@@ -147,8 +146,9 @@ VelocityCondition flowRateVelocity(const ConditionInput& in)
         failIn(in.dict, "extrapolateProfile yes is not available: the velocity is uniform over the patch. Remove the entry.");
     std::vector<double> weight;
     for (double wall : in.wallNode) weight.push_back(1 - wall);
-    return fixedVelocity([f = timeFunction<scalar>(in.dict, "volumetricFlowRate"), n = in.nodes, &halo = in.halo, weight, all = std::vector<double>(weight.size(), 1.0), name = in.patch.name()](
-        const BoundaryState& state, std::vector<double>& out) { distributeFlow(*n, halo, f->value(state.time), weight, all, name, out); });
+    return fixedVelocity([f = timeFunction<scalar>(in.dict, "volumetricFlowRate"), n = in.nodes, &halo = in.halo, weight,
+        all = std::vector<double>(weight.size(), 1.0), name = in.patch.name()](const BoundaryState& state, std::vector<double>& out)
+        { distributeFlow(*n, halo, f->value(state.time), weight, all, name, out); });
 }
 
 VelocityCondition variableHeightVelocity(const ConditionInput& in)

@@ -204,7 +204,8 @@ private:
         const std::vector<std::array<double, 3>> normal = normals(level);
         std::vector<double> position(cells_.cut().size());
         for (std::size_t k = 0; k < cells_.cut().size(); ++k) position[k] = offset(cells_.cut()[k], normal[k]);
-        const std::vector<double> next = cells_.toNodes(cells_.cut(), 1, [&](std::size_t k, int i, double* value) { *value = (along(normal[k], i) - position[k])/cells_.length(); }); // within 1/2
+        const auto levelOfPlane = [&](std::size_t k, int i, double* value) { *value = (along(normal[k], i) - position[k])/cells_.length(); }; // within 1/2
+        const std::vector<double> next = cells_.toNodes(cells_.cut(), 1, levelOfPlane);
         double change = 0;
         for (std::size_t i = 0; i < level.size(); ++i)
         {

@@ -156,7 +156,8 @@ void CoverBuilder::closeFaces(const Cover& cover, const std::vector<Solid>& soli
         CuttingFaces<dim> faces = cuttingFaces<dim>(solid, element);
         if (faces.isApart) continue;
         for (int a = 0; a <= dim; ++a) faces.distances[faces.n * (dim + 1) + a] = -distance[a];
-        addFacePart<dim>(corner, faces.distances, faces.n + 1, mesh_.volume[element], verticesOf<dim>(element).data(), &mesh_.gradN[std::size_t(element) * (dim + 1) * dim], facets);
+        addFacePart<dim>(corner, faces.distances, faces.n + 1, mesh_.volume[element], verticesOf<dim>(element).data(),
+            &mesh_.gradN[std::size_t(element) * (dim + 1) * dim], facets);
     }
 }
 

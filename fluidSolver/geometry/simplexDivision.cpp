@@ -2,6 +2,7 @@
 #include "geometry/simplexDivision.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 
 namespace flotsam

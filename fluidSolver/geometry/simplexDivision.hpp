@@ -4,8 +4,6 @@
 
 #include "geometry/cutSimplex.hpp"
 
-#include <cmath>
-
 namespace flotsam
 {
 

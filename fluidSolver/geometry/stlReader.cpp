@@ -4,7 +4,6 @@
 #include "geometry/triSurface.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fstream>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "io/hdf5File.hpp"
 
-#include <hdf5.h>
+#include "io/hdf5Calls.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -14,36 +14,6 @@ static_assert(std::is_same<hid_t, std::int64_t>::value, "HDF5 before 1.10 has na
 
 namespace
 {
-
-/// Closes an HDF5 identifier at the end of its scope.
-class Handle
-{
-public:
-    Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
-    ~Handle() { if (id_ >= 0) close_(id_); }
-    Handle(const Handle&) = delete;
-    Handle& operator=(const Handle&) = delete;
-    operator hid_t() const { return id_; }
-    bool isValid() const { return id_ >= 0; }
-
-private:
-    hid_t id_;
-    herr_t (*close_)(hid_t);
-};
-
-/// HDF5 prints its error stack by default; the message belongs into the exception instead.
-class Silence
-{
-public:
-    Silence() { H5Eget_auto2(H5E_DEFAULT, &function_, &data_); H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
-    ~Silence() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
-    Silence(const Silence&) = delete;
-    Silence& operator=(const Silence&) = delete;
-
-private:
-    H5E_auto2_t function_ = nullptr;
-    void* data_ = nullptr;
-};
 
 herr_t keepFirst(unsigned, const H5E_error2_t* error, void* text)
 {
@@ -65,17 +35,6 @@ herr_t collectName(hid_t, const char* name, const H5L_info_t*, void* list)
     return 0;
 }
 
-/// True when every link of the path exists (H5Lexists fails on a missing parent).
-bool pathExists(hid_t file, const std::string& path)
-{
-    if (path == "/") return true;
-    for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1))
-    {
-        if (H5Lexists(file, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
-        if (end == std::string::npos) return true;
-    }
-}
-
 hid_t storageType(Hdf5File::Storage storage)
 {
     switch (storage)
@@ -86,12 +45,20 @@ hid_t storageType(Hdf5File::Storage storage)
     }
 }
 
-hid_t linkProperties()
+/// {rows, columns} of a table; rank as stored.
+struct Extent
 {
-    const hid_t properties = H5Pcreate(H5P_LINK_CREATE);
-    H5Pset_create_intermediate_group(properties, 1);
-    return properties;
-}
+    int rank = 0;
+    hsize_t size[2] = {0, 1};
+
+    explicit Extent(hid_t dataset)
+    {
+        const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
+        rank = H5Sget_simple_extent_ndims(space);
+        if (rank == 1 || rank == 2) H5Sget_simple_extent_dims(space, size, nullptr);
+    }
+    bool isTable() const { return rank == 1 || rank == 2; }
+};
 
 constexpr hsize_t arrayBlock = 1 << 17; // values per checksummed block: 1 MiB
 
@@ -99,8 +66,8 @@ constexpr hsize_t arrayBlock = 1 << 17; // values per checksummed block: 1 MiB
 
 Hdf5File::Hdf5File(const std::string& file, Mode mode) : file_(file)
 {
-    const Silence silence;
-    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    const Hdf5Silence silence;
+    const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
     // A reader that holds the file open must not stop a running computation.
     H5Pset_file_locking(access, false, true);
@@ -118,14 +85,14 @@ Hdf5File::Hdf5File(const std::string& file, Mode mode) : file_(file)
 
 Hdf5File::~Hdf5File()
 {
-    const Silence silence;
+    const Hdf5Silence silence;
     if (id_ >= 0) H5Fclose(id_);
 }
 
 void Hdf5File::close()
 {
     if (id_ < 0) return;
-    const Silence silence;
+    const Hdf5Silence silence;
     const bool isFlushed = H5Fflush(id_, H5F_SCOPE_LOCAL) >= 0;
     const std::string reason = isFlushed ? "" : lastHdf5Error();
     const bool isClosed = H5Fclose(id_) >= 0;
@@ -142,16 +109,16 @@ void Hdf5File::fail(const std::string& action, const std::string& path) const
 
 bool Hdf5File::exists(const std::string& path) const
 {
-    const Silence silence;
+    const Hdf5Silence silence;
     return pathExists(id_, path);
 }
 
 std::vector<std::string> Hdf5File::names(const std::string& group) const
 {
-    const Silence silence;
+    const Hdf5Silence silence;
     std::vector<std::string> list;
     if (!pathExists(id_, group)) return list;
-    const Handle id(H5Gopen2(id_, group.c_str(), H5P_DEFAULT), H5Gclose);
+    const Hdf5Handle id(H5Gopen2(id_, group.c_str(), H5P_DEFAULT), H5Gclose);
     if (!id.isValid() || H5Literate(id, H5_INDEX_NAME, H5_ITER_INC, nullptr, collectName, &list) < 0)
     {
         fail("cannot list the group", group);
@@ -161,115 +128,37 @@ std::vector<std::string> Hdf5File::names(const std::string& group) const
 
 void Hdf5File::link(const std::string& existing, const std::string& path)
 {
-    const Silence silence;
-    const Handle properties(linkProperties(), H5Pclose);
+    const Hdf5Silence silence;
+    const Hdf5Handle properties(linkProperties(), H5Pclose);
     if (H5Lcreate_hard(id_, existing.c_str(), H5L_SAME_LOC, path.c_str(), properties, H5P_DEFAULT) < 0)
     {
         fail("cannot link to " + existing, path);
     }
 }
 
-// --- attributes ---------------------------------------------------------------------------------------------------
-
-void Hdf5File::writeAttribute(const std::string& path, const std::string& name, Id type, const void* value)
+Hdf5File::Id Hdf5File::openDataset(const std::string& path) const
 {
-    const Silence silence;
-    if (!pathExists(id_, path))
-    {
-        const Handle properties(linkProperties(), H5Pclose);
-        const Handle group(H5Gcreate2(id_, path.c_str(), properties, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
-        if (!group.isValid()) fail("cannot make the group", path);
-    }
-    if (H5Aexists_by_name(id_, path.c_str(), name.c_str(), H5P_DEFAULT) > 0)
-    {
-        H5Adelete_by_name(id_, path.c_str(), name.c_str(), H5P_DEFAULT);
-    }
-    const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-    const Handle id(H5Acreate_by_name(id_, path.c_str(), name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
-        H5Aclose);
-    if (!id.isValid() || H5Awrite(id, type, value) < 0) fail("cannot write attribute " + name, path);
-}
-
-void Hdf5File::setAttribute(const std::string& path, const std::string& name, const std::string& value)
-{
-    const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-    H5Tset_size(type, std::max<std::size_t>(value.size(), 1));
-    H5Tset_strpad(type, H5T_STR_NULLPAD);
-    H5Tset_cset(type, H5T_CSET_UTF8);
-    writeAttribute(path, name, type, value.c_str());
-}
-
-void Hdf5File::setAttribute(const std::string& path, const std::string& name, double value)
-{
-    writeAttribute(path, name, H5T_NATIVE_DOUBLE, &value);
-}
-
-void Hdf5File::setAttribute(const std::string& path, const std::string& name, std::int64_t value)
-{
-    writeAttribute(path, name, H5T_NATIVE_INT64, &value);
-}
-
-bool Hdf5File::hasAttribute(const std::string& path, const std::string& name) const
-{
-    const Silence silence;
-    return pathExists(id_, path) && H5Aexists_by_name(id_, path.c_str(), name.c_str(), H5P_DEFAULT) > 0;
-}
-
-Hdf5File::Id Hdf5File::openAttribute(const std::string& path, const std::string& name) const
-{
-    const hid_t id = H5Aopen_by_name(id_, path.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
-    if (id < 0) fail("cannot find attribute " + name, path);
+    const hid_t id = H5Dopen2(id_, path.c_str(), H5P_DEFAULT);
+    if (id < 0) fail("cannot find", path);
     return id;
-}
-
-void Hdf5File::readAttribute(const std::string& path, const std::string& name, Id type, void* value) const
-{
-    const Silence silence;
-    const Handle id(openAttribute(path, name), H5Aclose);
-    if (H5Aread(id, type, value) < 0) fail("cannot read attribute " + name, path);
-}
-
-std::string Hdf5File::stringAttribute(const std::string& path, const std::string& name) const
-{
-    const Silence silence;
-    const Handle id(openAttribute(path, name), H5Aclose);
-    const Handle type(H5Aget_type(id), H5Tclose);
-    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) fail("not a plain text: attribute " + name, path);
-    std::string text(H5Tget_size(type), '\0');
-    if (H5Aread(id, type, &text[0]) < 0) fail("cannot read attribute " + name, path);
-    return text.substr(0, text.find('\0'));
-}
-
-double Hdf5File::realAttribute(const std::string& path, const std::string& name) const
-{
-    double value = 0;
-    readAttribute(path, name, H5T_NATIVE_DOUBLE, &value);
-    return value;
-}
-
-std::int64_t Hdf5File::integerAttribute(const std::string& path, const std::string& name) const
-{
-    std::int64_t value = 0;
-    readAttribute(path, name, H5T_NATIVE_INT64, &value);
-    return value;
 }
 
 // --- arrays -------------------------------------------------------------------------------------------------------
 
 void Hdf5File::writeArray(const std::string& path, const std::vector<double>& values)
 {
-    const Silence silence;
+    const Hdf5Silence silence;
     const hsize_t size = values.size();
     const hsize_t block = std::min(size, arrayBlock);
-    const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
-    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    const Hdf5Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+    const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     if (size > 0)
     {
         H5Pset_chunk(creation, 1, &block);
         H5Pset_fletcher32(creation);
     }
-    const Handle links(linkProperties(), H5Pclose);
-    const Handle id(H5Dcreate2(id_, path.c_str(), H5T_IEEE_F64LE, space, links, creation, H5P_DEFAULT), H5Dclose);
+    const Hdf5Handle links(linkProperties(), H5Pclose);
+    const Hdf5Handle id(H5Dcreate2(id_, path.c_str(), H5T_IEEE_F64LE, space, links, creation, H5P_DEFAULT), H5Dclose);
     if (!id.isValid()) fail("cannot create", path);
     if (size > 0 && H5Dwrite(id, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
     {
@@ -279,10 +168,9 @@ void Hdf5File::writeArray(const std::string& path, const std::vector<double>& va
 
 std::vector<double> Hdf5File::readArray(const std::string& path) const
 {
-    const Silence silence;
-    const Handle id(H5Dopen2(id_, path.c_str(), H5P_DEFAULT), H5Dclose);
-    if (!id.isValid()) fail("cannot find", path);
-    const Handle space(H5Dget_space(id), H5Sclose);
+    const Hdf5Silence silence;
+    const Hdf5Handle id(openDataset(path), H5Dclose);
+    const Hdf5Handle space(H5Dget_space(id), H5Sclose);
     const hssize_t size = H5Sget_simple_extent_npoints(space);
     if (size < 0) fail("cannot read the size", path);
     std::vector<double> values(size);
@@ -297,65 +185,42 @@ std::vector<double> Hdf5File::readArray(const std::string& path) const
 
 void Hdf5File::createTable(const std::string& path, std::size_t columns, std::size_t chunkRows, Storage storage)
 {
-    const Silence silence;
+    const Hdf5Silence silence;
     const int rank = columns == 1 ? 1 : 2;
     const hsize_t none[2] = {0, columns}, most[2] = {H5S_UNLIMITED, columns}, chunk[2] = {chunkRows, columns};
-    const Handle space(H5Screate_simple(rank, none, most), H5Sclose);
-    const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    const Hdf5Handle space(H5Screate_simple(rank, none, most), H5Sclose);
+    const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     H5Pset_chunk(creation, rank, chunk);
-    const Handle links(linkProperties(), H5Pclose);
-    const Handle id(H5Dcreate2(id_, path.c_str(), storageType(storage), space, links, creation, H5P_DEFAULT), H5Dclose);
+    const Hdf5Handle links(linkProperties(), H5Pclose);
+    const Hdf5Handle id(H5Dcreate2(id_, path.c_str(), storageType(storage), space, links, creation, H5P_DEFAULT), H5Dclose);
     if (!id.isValid()) fail("cannot create", path);
 }
 
-namespace
-{
-
-/// {rows, columns} of a table; rank as stored.
-struct Extent
-{
-    int rank = 0;
-    hsize_t size[2] = {0, 1};
-
-    explicit Extent(hid_t dataset)
-    {
-        const Handle space(H5Dget_space(dataset), H5Sclose);
-        rank = H5Sget_simple_extent_ndims(space);
-        if (rank == 1 || rank == 2) H5Sget_simple_extent_dims(space, size, nullptr);
-    }
-    bool isTable() const { return rank == 1 || rank == 2; }
-};
-
-} // namespace
-
 std::size_t Hdf5File::rows(const std::string& path) const
 {
-    const Silence silence;
-    const Handle id(H5Dopen2(id_, path.c_str(), H5P_DEFAULT), H5Dclose);
-    if (!id.isValid()) fail("cannot find", path);
+    const Hdf5Silence silence;
+    const Hdf5Handle id(openDataset(path), H5Dclose);
     return Extent(id).size[0];
 }
 
 std::size_t Hdf5File::columns(const std::string& path) const
 {
-    const Silence silence;
-    const Handle id(H5Dopen2(id_, path.c_str(), H5P_DEFAULT), H5Dclose);
-    if (!id.isValid()) fail("cannot find", path);
+    const Hdf5Silence silence;
+    const Hdf5Handle id(openDataset(path), H5Dclose);
     return Extent(id).size[1];
 }
 
 void Hdf5File::append(const std::string& path, const void* values, Id memoryType, std::size_t nRows)
 {
-    const Silence silence;
-    const Handle id(H5Dopen2(id_, path.c_str(), H5P_DEFAULT), H5Dclose);
-    if (!id.isValid()) fail("cannot find", path);
+    const Hdf5Silence silence;
+    const Hdf5Handle id(openDataset(path), H5Dclose);
     Extent extent(id);
     if (!extent.isTable()) fail("not a table", path);
     const hsize_t start[2] = {extent.size[0], 0}, count[2] = {nRows, extent.size[1]};
     extent.size[0] += nRows;
     if (nRows == 0) return;
     if (H5Dset_extent(id, extent.size) < 0) fail("cannot extend", path);
-    const Handle inFile(H5Dget_space(id), H5Sclose), inMemory(H5Screate_simple(extent.rank, count, nullptr), H5Sclose);
+    const Hdf5Handle inFile(H5Dget_space(id), H5Sclose), inMemory(H5Screate_simple(extent.rank, count, nullptr), H5Sclose);
     H5Sselect_hyperslab(inFile, H5S_SELECT_SET, start, nullptr, count, nullptr);
     if (H5Dwrite(id, memoryType, inMemory, inFile, H5P_DEFAULT, values) < 0) fail("cannot append", path);
 }
@@ -372,9 +237,8 @@ void Hdf5File::appendRows(const std::string& path, const int* values, std::size_
 
 void Hdf5File::setRows(const std::string& path, std::size_t nRows)
 {
-    const Silence silence;
-    const Handle id(H5Dopen2(id_, path.c_str(), H5P_DEFAULT), H5Dclose);
-    if (!id.isValid()) fail("cannot find", path);
+    const Hdf5Silence silence;
+    const Hdf5Handle id(openDataset(path), H5Dclose);
     Extent extent(id);
     if (!extent.isTable()) fail("not a table", path);
     extent.size[0] = nRows;

@@ -57,6 +57,7 @@ private:
     using Id = std::int64_t; // hid_t; HDF5's header stays out of this one
 
     void append(const std::string& path, const void* values, Id memoryType, std::size_t nRows);
+    Id openDataset(const std::string& path) const;
     Id openAttribute(const std::string& path, const std::string& name) const;
     void writeAttribute(const std::string& path, const std::string& name, Id type, const void* value);
     void readAttribute(const std::string& path, const std::string& name, Id type, void* value) const;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "algebra/meshHalo.hpp"
-#include "core/simplexFaces.hpp"
 #include "support/boxMesh.hpp"
 #include "support/meshChecks.hpp"
 

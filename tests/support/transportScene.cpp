@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/transportScene.hpp"
 
+#include "support/flowCases.hpp"
+
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 
@@ -36,6 +39,33 @@ void forSamples(int dim, int count, const std::function<void(const double*)>& ac
     }
 }
 
+/// image_a = sum_e int grad N_a . grad q, whole at the owned nodes. q: halo up to date.
+void multiplyStiffness(const SimplexMesh& mesh, const std::vector<double>& q, std::vector<double>& image)
+{
+    const int dim = mesh.dim, n = dim + 1;
+    std::fill(image.begin(), image.end(), 0);
+    for (int e = 0; e < mesh.nInnerElements; ++e)
+    {
+        const int* nodes = &mesh.elements[std::size_t(e)*n];
+        const double* g = &mesh.gradN[std::size_t(e)*n*dim];
+        double gradient[3] = {};
+        for (int a = 0; a < n; ++a)
+        {
+            for (int d = 0; d < dim; ++d)
+            {
+                gradient[d] += q[nodes[a]]*g[a*dim + d];
+            }
+        }
+        for (int a = 0; a < n; ++a)
+        {
+            for (int d = 0; d < dim; ++d)
+            {
+                image[nodes[a]] += mesh.volume[e]*gradient[d]*g[a*dim + d];
+            }
+        }
+    }
+}
+
 } // namespace
 
 TransportScene::TransportScene(MPI_Comm comm, int dim, int n, double width, const VelocityField& field)
@@ -51,6 +81,13 @@ TransportScene::TransportScene(MPI_Comm comm, int dim, int n, double width, cons
         std::copy_n(u.begin(), dim, &velocity[std::size_t(i)*dim]);
     }
     fastest = halo.max(fastest);
+    for (std::size_t p = 0; p < mesh.patches.size(); ++p)
+    {
+        patches.push_back(makePatch(mesh, int(p), BoundaryPatch::Velocity::Fixed));
+        patches.back().phase = BoundaryPatch::Phase::Inflow;
+        values.emplace_back();
+        values.back().alpha.assign(patches.back().nodes.size(), 0);
+    }
     makeDivergenceFree();
 }
 
@@ -61,34 +98,19 @@ Point TransportScene::point(int i) const
     return x;
 }
 
-/// u' = -grad q in every element so that sum_e -grad N_a.(int u + V u') + int_boundary N_a u.n = 0 for every node:
-/// what the pressure of the stabilised scheme does. Conjugate gradients.
-void TransportScene::makeDivergenceFree()
+/// What the velocity leaves of every node's balance, sum_e grad N_a.int u - int_boundary N_a u.n; size: sum of the squares of its elements' parts.
+std::vector<double> TransportScene::imbalance(double& size) const
 {
-    const int dim = mesh.dim, n = dim + 1;
-    patches.resize(mesh.patches.size());
-    values.resize(patches.size());
-    for (std::size_t p = 0; p < patches.size(); ++p)
-    {
-        std::vector<int>& nodes = patches[p].nodes;
-        nodes = mesh.patches[p].faceNodes;
-        std::sort(nodes.begin(), nodes.end());
-        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-        patches[p].name = mesh.patches[p].name;
-        patches[p].meshPatch = static_cast<int>(p);
-        patches[p].phase = BoundaryPatch::Phase::Inflow;
-        values[p].alpha.assign(nodes.size(), 0);
-    }
+    const int n = mesh.dim + 1;
     const VolumeFlux flux(mesh, graph);
     TransportBoundary boundary(mesh, graph, flux);
     boundary.evaluate(velocity, {}, nullptr, patches, values, {}, {});
-
-    std::vector<double> q(mesh.nNodes, 0), r(mesh.nNodes, 0), direction, image(mesh.nNodes);
+    std::vector<double> r(mesh.nNodes, 0);
     for (const BoundaryFlux& b : boundary.fluxes())
     {
         r[b.node] -= b.flux;
     }
-    double size = 0;
+    size = 0;
     for (int i = 0; i < mesh.nOwned; ++i)
     {
         for (int k = graph.nodeElementStart[i]; k < graph.nodeElementStart[i + 1]; ++k)
@@ -99,6 +121,16 @@ void TransportScene::makeDivergenceFree()
             size += row*row;
         }
     }
+    size = halo.sum(size);
+    return r;
+}
+
+/// u' = -grad q in every element so that sum_e -grad N_a.(int u + V u') + int_boundary N_a u.n = 0 for every node:
+/// what the pressure of the stabilised scheme does. Conjugate gradients.
+void TransportScene::makeDivergenceFree()
+{
+    double size;
+    std::vector<double> q(mesh.nNodes, 0), r = imbalance(size), direction, image(mesh.nNodes);
     const auto dot = [this](const std::vector<double>& a, const std::vector<double>& b) {
         double s = 0;
         for (int i = 0; i < mesh.nOwned; ++i)
@@ -108,32 +140,12 @@ void TransportScene::makeDivergenceFree()
         return halo.sum(s);
     };
     double rr = dot(r, r);
-    const double target = 1e-28*halo.sum(size);  // not lower: stagnation lets the constant part grow
+    const double target = 1e-28*size;  // not lower: stagnation lets the constant part grow
     direction = r;
     for (int iteration = 0; iteration < 2000 && rr > target; ++iteration)
     {
         halo.update(direction, 1);
-        std::fill(image.begin(), image.end(), 0);
-        for (int e = 0; e < mesh.nInnerElements; ++e)
-        {
-            const int* nodes = &mesh.elements[std::size_t(e)*n];
-            const double* g = &mesh.gradN[std::size_t(e)*n*dim];
-            double gradient[3] = {};
-            for (int a = 0; a < n; ++a)
-            {
-                for (int d = 0; d < dim; ++d)
-                {
-                    gradient[d] += direction[nodes[a]]*g[a*dim + d];
-                }
-            }
-            for (int a = 0; a < n; ++a)
-            {
-                for (int d = 0; d < dim; ++d)
-                {
-                    image[nodes[a]] += mesh.volume[e]*gradient[d]*g[a*dim + d];
-                }
-            }
-        }
+        multiplyStiffness(mesh, direction, image);
         const double step = rr/dot(direction, image);
         for (int i = 0; i < mesh.nOwned; ++i)
         {
@@ -148,6 +160,7 @@ void TransportScene::makeDivergenceFree()
         rr = next;
     }
     halo.update(q, 1);
+    const int dim = mesh.dim, n = dim + 1;
     for (int e = 0; e < mesh.nElements; ++e)
     {
         for (int a = 0; a < n; ++a)

@@ -46,6 +46,7 @@ struct TransportScene
     double distanceTo(const std::vector<double>& reference) const;
 
 private:
+    std::vector<double> imbalance(double& size) const;
     void makeDivergenceFree();
     std::vector<double> scaledVelocity_, scaledFineScale_;
 };

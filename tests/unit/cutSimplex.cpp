@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <random>
-#include <vector>
 
 using namespace flotsam;
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "equations/solidExtension.hpp"
 #include "support/transportScene.hpp"
 
 #include <doctest/doctest.h>

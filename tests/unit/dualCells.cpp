@@ -4,8 +4,6 @@
 
 #include <doctest/doctest.h>
 
-#include <cmath>
-
 using namespace flotsam;
 
 TEST_CASE("share moments: the shares of all corners make up the simplex")

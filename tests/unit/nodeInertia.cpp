@@ -2,7 +2,6 @@
 /// Inertia of second order in time at nodes that the surface passes: where it would be less than what else is in the row, it is of first order.
 #include "equations/elementLoader.hpp"
 
-#include <cmath>
 #include <doctest/doctest.h>
 
 using namespace flotsam;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "equations/initialProfile.hpp"
 #include "equations/solidExtension.hpp"
 #include "geometry/meanCover.hpp"
 #include "support/transportScene.hpp"
