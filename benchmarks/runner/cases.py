@@ -8,8 +8,8 @@ parameters(run)  entries of system/parameters, included by the case's dictionari
 files(run, folder)  {path: text} of further files of the case folder, may be missing
 prepare(run, do) mesh and start fields: do("blockMesh") runs a command in the case folder; time not counted
 errors(run, folder)  {column: value} from the finished run, the same formula for all solvers
-targets          {column: (value, text)}, may be missing
-variantsAreProblems  True: a variant is another problem, compared with the same variant of the others only; may be missing
+targets          {column: (value, text) or (value, text, variant)}, the latter for runs of this variant only; may be missing
+problem(variant) names the problem that a variant belongs to: only runs of one problem are compared; may be missing
 """
 import importlib.util
 import os

@@ -71,9 +71,10 @@ def _allRuns(case, rows):
 
 
 def _comparison(case, rows, column):
-    """A line per peer's run and curve of ours; where a case has groups (variants that are problems of their own), within the group."""
+    """A line per peer's run and curve of ours of the same problem."""
     curves = _curves(rows, column)
-    group = {label(r): r["variant"] if getattr(case, "variantsAreProblems", False) else "" for r in rows}
+    problem = getattr(case, "problem", lambda variant: "")
+    group = {label(r): problem(r["variant"]) for r in rows}
     ours = [name for name in dict.fromkeys(label(r) for r in rows if isOurs(r)) if name in curves]
     lines = []
     for name in [n for n in curves if n not in ours]:
@@ -87,10 +88,10 @@ def _comparison(case, rows, column):
 
 def _targets(case, rows):
     lines = []
-    for column, (limit, text) in getattr(case, "targets", {}).items():
+    for column, (limit, text, *variant) in getattr(case, "targets", {}).items():
         for row in rows:
             value = table.number(row, column)
-            if isOurs(row) and value is not None:
+            if isOurs(row) and value is not None and row["variant"] in (variant or [row["variant"]]):
                 lines.append([text, f"{limit:g}", f"{label(row)} {row['N']}", f"{abs(value):.4g}", "reached" if abs(value) <= limit else "not reached"])
     return _markdown(["target", "at most", "run, N", "value", "verdict"], lines) if lines else ""
 
