@@ -52,7 +52,7 @@ TEST_CASE("reversed vortex, period 4")
     CHECK(table.leastOrder("shape") > 1.7);
 }
 
-/// Bounds: five hundredths above what one mesh gives; the error spreads by 0.013 from mesh to mesh on 64 cells (docs/numerics, 4.6).
+/// On other sets of moved nodes the error spreads by 0.013 from mesh to mesh on 64 cells (docs/numerics, 4.6).
 TEST_CASE("reversed vortex, period 8: the filament survives")
 {
     const ErrorTable table = errors(8, {0.52, 0.13, 0.018});
