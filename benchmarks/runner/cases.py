@@ -10,6 +10,7 @@ prepare(run, do) mesh and start fields: do("blockMesh") runs a command in the ca
 errors(run, folder)  {column: value} from the finished run, the same formula for all solvers
 targets          {column: (value, text) or (value, text, variant)}, the latter for runs of this variant only; may be missing
 problem(variant) names the problem that a variant belongs to: only runs of one problem are compared; may be missing
+problemsApart    True: a picture for each problem; may be missing
 """
 import importlib.util
 import os

@@ -29,6 +29,9 @@ def problem(variant):
     return variant.replace(" explicit", "")
 
 
+problemsApart = True
+
+
 def test(name, solver, sizes, variant="", quick=0, **options):
     return series(solver, sizes, quick=quick, variant=(name + " " + variant).strip(), options={"test": name, **options})
 
