@@ -48,6 +48,7 @@ target_link_libraries(flotsam_flow_support PUBLIC flotsam_equations flotsam_test
 flotsam_test(manufactured verification SOURCES verification/manufactured.cpp LIBRARIES flotsam_flow_support)
 flotsam_test(manufactured3D verification SOURCES verification/manufactured3D.cpp LIBRARIES flotsam_flow_support)
 flotsam_test(cutManufactured verification SOURCES verification/cutManufactured.cpp LIBRARIES flotsam_flow_support)
+flotsam_test(cutManufactured3D verification SOURCES verification/cutManufactured3D.cpp LIBRARIES flotsam_flow_support)
 flotsam_test(cutPositions verification SOURCES verification/cutPositions.cpp LIBRARIES flotsam_flow_support)
 flotsam_test(timeOrder verification SOURCES verification/timeOrder.cpp LIBRARIES flotsam_flow_support)
 flotsam_test(taylorGreen verification SOURCES verification/taylorGreen.cpp LIBRARIES flotsam_flow_support RANKS 1 2)

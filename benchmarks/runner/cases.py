@@ -9,7 +9,8 @@ files(run, folder)  {path: text} of further files of the case folder, may be mis
 prepare(run, do) mesh and start fields: do("blockMesh") runs a command in the case folder; time not counted
 errors(run, folder)  {column: value} from the finished run, the same formula for all solvers
 targets          list of Target, may be missing
-variantsAreProblems  True: a variant is another problem, compared with the same variant of the others only; may be missing
+problem(variant) names the problem that a variant belongs to: only runs of one problem are compared; may be missing
+problemsApart    True: a picture for each problem; may be missing
 """
 import importlib.util
 import os

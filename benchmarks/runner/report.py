@@ -71,9 +71,10 @@ def _allRuns(case, rows):
 
 
 def _comparison(case, rows, column):
-    """A line per peer's run and curve of ours; where a case has groups (variants that are problems of their own), within the group."""
+    """A line per peer's run and curve of ours of the same problem."""
     curves = _curves(rows, column)
-    group = {label(r): r["variant"] if getattr(case, "variantsAreProblems", False) else "" for r in rows}
+    problem = getattr(case, "problem", lambda variant: "")
+    group = {label(r): problem(r["variant"]) for r in rows}
     ours = [name for name in dict.fromkeys(label(r) for r in rows if isOurs(r)) if name in curves]
     lines = []
     for name in [n for n in curves if n not in ours]:
@@ -162,13 +163,20 @@ def _plot(case, rows, results):
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
 
-    columns = [c for c in [case.mainError, *getattr(case, "moreErrors", [])] if _curves(rows, c)]
-    if not columns:
+    problems = list(dict.fromkeys(case.problem(r["variant"]) for r in rows)) if getattr(case, "problemsApart", False) else [None]
+    panels = [(column, problem, [r for r in rows if problem is None or case.problem(r["variant"]) == problem])
+              for column in [case.mainError, *getattr(case, "moreErrors", [])] for problem in problems]
+    panels = [panel for panel in panels if _curves(panel[2], panel[0])]
+    if not panels:
         return
     solverOf = {label(r): r["solver"] for r in rows}
-    figure, axes = plt.subplots(1, len(columns), figsize=(5.6 * len(columns), 5.2), dpi=130, squeeze=False)
-    for axis, column in zip(axes[0], columns):
-        curves = _curves(rows, column)
+    perRow = min(len(panels), 3)
+    nRows = -(-len(panels) // perRow)
+    figure, axes = plt.subplots(nRows, perRow, figsize=(5.6 * perRow, 5.2 * nRows), dpi=130, squeeze=False)
+    for axis in axes.flat[len(panels):]:
+        axis.axis("off")
+    for axis, (column, problem, panelRows) in zip(axes.flat, panels):
+        curves = _curves(panelRows, column)
         looks = _look(curves, solverOf)
         for name, points in curves.items():
             cpu, error, n = zip(*points)
@@ -179,6 +187,8 @@ def _plot(case, rows, results):
         what, unit = case.figures[column]
         axis.set_xlabel("CPU seconds of the solver (numbers at the points: N)")
         axis.set_ylabel(what + (f" [{unit}]" if unit else ""))
+        if problem:
+            axis.set_title(problem, fontsize=9)
         axis.grid(True, which="both", alpha=0.25)
         axis.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncol=3, frameon=False)     # below: it hides no point
     figure.suptitle(f"{case.name}: error against run time, lower left is better", fontsize=11)

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Error, cost and conservation of the phase transport: Zalesak's disc (one turn) and the reversed vortex.
-/// usage: transportTable [largest n, default 128 [3D: yes or no, default no [Courant number, default 0.5 [delta/h, default 0.25 0.35 0.5]]]]
+/// Error, cost and conservation of the phase transport: Zalesak's disc (one turn), the reversed vortex, a reversed deformation in 3D.
+/// usage: transportTable [largest n, default 128 [3D: yes or no, default no [Courant number, default 0.5 [delta/h, default the program's [case]]]]]
+/// With a case ("zalesak", "vortex T=2", "vortex T=4", "vortex T=8", "deformation 3D") only this one, on n cells a side only.
 #include "support/transportScene.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -14,13 +16,42 @@ using namespace flotsam;
 namespace
 {
 
-void print(const char* name, int n, double width, const TransportScene& scene, const TransportResult& r)
+struct Problem
 {
+    std::string name;
+    int dim, smallest, largest;     ///< n without a case given
+    double period, fastest;         ///< fastest: speed of the Courant number, 0: the field's largest
+    VelocityField field;
+    LiquidShape liquid;
+    bool isReversed;                ///< by cos(pi t/period)
+};
+
+std::vector<Problem> problems()
+{
+    std::vector<Problem> all{{"zalesak", 2, 32, 1 << 20, 2*M_PI, 1, rotationField(), slottedDisc(), false}};
+    for (const int period : {2, 4, 8})
+    {
+        all.push_back({"vortex T=" + std::to_string(period), 2, 32, 1 << 20, double(period), 0, vortexField(), disc({0.5, 0.75, 0}, 0.15, 2), true});
+    }
+    all.push_back({"deformation 3D", 3, 16, 64, 3, 0, deformationField(), disc({0.35, 0.35, 0.35}, 0.15, 3), true});
+    return all;
+}
+
+void run(const Problem& problem, int n, double width, double courant)
+{
+    TransportScene scene(MPI_COMM_WORLD, problem.dim, n, width, problem.field);
+    if (problem.fastest > 0)
+    {
+        scene.fastest = problem.fastest;
+    }
+    scene.fill(problem.liquid);
+    const TransportResult r = runPeriod(scene, problem.period, courant,
+        [&problem](double t) { return problem.isReversed ? std::cos(M_PI*t/problem.period) : 1; });
     if (scene.halo.rank() == 0)
     {
         std::printf("%-14s n %4d delta %.2f | error %.4f mass %+.1e redistributed %.1e alpha [%.1e, 1%+.1e] limited %ld "
-                    "| %.3f us/node/step, %d steps, band %.3f roof %.3f\n", name, n, width, r.error, r.massError, r.redistributed,
-            r.lowest, r.highest - 1, r.limited, 1e6*r.secondsPerNodeStep, r.steps, r.bandShare, r.roofShare);
+                    "| %.3f us/node/step, %d steps, band %.3f roof %.3f\n", problem.name.c_str(), n, width, r.error, r.massError,
+            r.redistributed, r.lowest, r.highest - 1, r.limited, 1e6*r.secondsPerNodeStep, r.steps, r.bandShare, r.roofShare);
         std::fflush(stdout);
     }
 }
@@ -33,30 +64,17 @@ int main(int argc, char** argv)
     const int largest = argc > 1 ? std::atoi(argv[1]) : 128;
     const bool with3D = argc > 2 && std::string(argv[2]) == "yes";
     const double courant = argc > 3 ? std::atof(argv[3]) : 0.5;
-    const std::vector<double> widths = argc > 4 ? std::vector<double>{std::atof(argv[4])} : std::vector<double>{0.25, 0.35, 0.5};
-    for (const double width : widths)
+    const double width = argc > 4 ? std::atof(argv[4]) : NumericsControls().interfaceWidth;
+    const std::string only = argc > 5 ? argv[5] : "";
+    for (const Problem& problem : problems())
     {
-        for (int n = 32; n <= largest; n *= 2)
+        if (problem.name == only)
         {
-            {
-                TransportScene scene(MPI_COMM_WORLD, 2, n, width, rotationField());
-                scene.fastest = 1;
-                scene.fill(slottedDisc());
-                print("zalesak", n, width, scene, runPeriod(scene, 2*M_PI, courant, [](double) { return 1; }));
-            }
-            for (const double period : {2., 8.})
-            {
-                TransportScene scene(MPI_COMM_WORLD, 2, n, width, vortexField());
-                scene.fill(disc({0.5, 0.75, 0}, 0.15, 2));
-                print(period < 4 ? "vortex T=2" : "vortex T=8", n, width, scene,
-                    runPeriod(scene, period, courant, [period](double t) { return std::cos(M_PI*t/period); }));
-            }
+            run(problem, largest, width, courant);
         }
-        for (int n = 32; with3D && n <= std::min(largest, 64); n *= 2)
+        for (int n = problem.smallest; only.empty() && n <= std::min(largest, problem.largest) && (problem.dim == 2 || with3D); n *= 2)
         {
-            TransportScene scene(MPI_COMM_WORLD, 3, n, width, deformationField());
-            scene.fill(disc({0.35, 0.35, 0.35}, 0.15, 3));
-            print("deformation 3D", n, width, scene, runPeriod(scene, 3, courant, [](double t) { return std::cos(M_PI*t/3); }));
+            run(problem, n, width, courant);
         }
     }
     MPI_Finalize();

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/cutFlows.hpp"
 
+#include "support/flowCases.hpp"
+
+#include <doctest/doctest.h>
+
 #include <cmath>
 #include <stdexcept>
 
@@ -102,6 +106,35 @@ std::vector<Solid> FlowAroundBody::solids() const
     solids[0].shape = dim == 2 ? makeCylinder(Vec3(0, 0, -5), Vec3(0, 0, 5), radius) : makeSphere(Vec3::Zero(), radius);
     solids[0].pose.position = centre;
     return solids;
+}
+
+ErrorTable errorsAroundBody(int dim, const char* title, double rho, double mu, const std::vector<int>& sizes, bool viscousResidual)
+{
+    usePetsc();
+    ErrorTable table(title);
+    for (int n : sizes)
+    {
+        const SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, dim, {n, n, n}, {0, 0, 0}, {1, 1, 1}, 0.12);
+        const Halo halo(mesh, MPI_COMM_WORLD);
+        FlowAroundBody body;
+        body.dim = dim;
+        body.centre = Vec3(0.513, 0.487, 0.52);
+        NumericsControls controls;
+        controls.timeOrder = 1;
+        controls.tolerance = 1e-8;
+        controls.restart = 200;
+        controls.maxIterations = 2000;
+        controls.viscousResidual = viscousResidual;
+        ForcedFlow flow(mesh, halo, oneFluid(rho, mu), controls, body.flow());
+        const std::vector<Solid> solids = body.solids();
+        CoverBuilder builder(mesh, flow.graph(), halo);
+        flow.setGeometry(builder.build(solids), solids);
+        CHECK(flow.toSteadyState(1e3, dim == 2 ? 1e-6 : 1e-5, 30) < 30);
+        const FlowErrors e = flow.errors();
+        table.add(1.0/n, {{"u L2", e.velocity}, {"u H1", e.gradient}, {"p L2", e.pressure}});
+    }
+    table.print();
+    return table;
 }
 
 Vec3 haltonPoint(int k)

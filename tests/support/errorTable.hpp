@@ -2,6 +2,7 @@
 /// Errors on a sequence of meshes or time steps with the orders between neighbours, printed as a markdown table.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <mpi.h>
@@ -31,6 +32,30 @@ public:
         return std::log(value(name, row - 1)/value(name, row))/std::log(sizes_[row - 1]/sizes_[row]);
     }
     double lastOrder(const std::string& name) const { return order(name, int(rows_.size()) - 1); }
+
+    /// The least of those between neighbours.
+    double leastOrder(const std::string& name) const
+    {
+        double least = order(name, 1);
+        for (int row = 2; row < int(rows_.size()); ++row) least = std::min(least, order(name, row));
+        return least;
+    }
+
+    /// Slope of the line through all rows, least squares in logarithms.
+    double fittedOrder(const std::string& name) const
+    {
+        double x = 0, y = 0, xx = 0, xy = 0;
+        const int n = int(rows_.size());
+        for (int row = 0; row < n; ++row)
+        {
+            const double size = std::log(sizes_[row]), error = std::log(value(name, row));
+            x += size;
+            y += error;
+            xx += size*size;
+            xy += size*error;
+        }
+        return (n*xy - x*y)/(n*xx - x*x);
+    }
 
     /// Between the first and the last row.
     double overallOrder(const std::string& name) const

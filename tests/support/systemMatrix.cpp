@@ -104,8 +104,8 @@ double conditionNumber(const SimplexMesh& mesh, const FlowSystem& system, const 
         }
     bordered.setFromTriplets(entries.begin(), entries.end());
     const Eigen::SparseMatrix<double> transposed = bordered.transpose();
-    Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(bordered), luTransposed(transposed);
-    if (lu.info() != Eigen::Success || luTransposed.info() != Eigen::Success) return 1e300;
+    Eigen::SparseLU<Eigen::SparseMatrix<double>> lu(bordered);
+    if (lu.info() != Eigen::Success) return 1e300;
     Eigen::VectorXd x = Eigen::VectorXd::Zero(bordered.rows()), y;
     for (int k = 0; k < n; ++k) x[k] = std::sin(1.0 + 12.9898*k); // no symmetry
     y = x;
@@ -117,7 +117,7 @@ double conditionNumber(const SimplexMesh& mesh, const FlowSystem& system, const 
     }
     for (int k = 0; k < 20; ++k)
     {
-        y = lu.solve(luTransposed.solve(y.normalized()));
+        y = lu.solve(Eigen::VectorXd(lu.transpose().solve(y.normalized())));
         inverse = std::sqrt(y.norm());
     }
     return largest*inverse;

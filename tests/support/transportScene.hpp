@@ -13,6 +13,9 @@ namespace flotsam
 
 using Point = std::array<double, 3>;
 
+/// Width of the interface over the element size where no test needs another: the program's default.
+inline const double defaultWidth = NumericsControls().interfaceWidth;
+
 /// Signed distance to a liquid body [m], negative inside.
 using LiquidShape = std::function<double(const Point&)>;
 using VelocityField = std::function<Point(const Point&)>;

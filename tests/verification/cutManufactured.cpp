@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// The orders of `manufactured` with walls that cut the mesh: flow around a disc and a sphere, annular Couette flow with the torque.
+/// The orders of `manufactured` with walls that cut the mesh: flow around a disc, annular Couette flow with the torque.
 #include "support/cutFlows.hpp"
 #include "support/errorTable.hpp"
 #include "support/flowCases.hpp"
@@ -23,39 +23,6 @@ NumericsControls steadyControls()
     return controls;
 }
 
-FluidProperties singleFluid(double rho, double mu)
-{
-    FluidProperties fluid;
-    fluid.rhoLiquid = rho;
-    fluid.muLiquid = mu;
-    return fluid;
-}
-
-ErrorTable aroundBody(int dim, const char* title, double rho, double mu, const std::vector<int>& sizes, bool viscousResidual = false)
-{
-    usePetsc();
-    ErrorTable table(title);
-    for (int n : sizes)
-    {
-        const SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, dim, {n, n, n}, {0, 0, 0}, {1, 1, 1}, 0.12);
-        const Halo halo(mesh, MPI_COMM_WORLD);
-        FlowAroundBody body;
-        body.dim = dim;
-        body.centre = Vec3(0.513, 0.487, 0.52);
-        NumericsControls controls = steadyControls();
-        controls.viscousResidual = viscousResidual;
-        ForcedFlow flow(mesh, halo, singleFluid(rho, mu), controls, body.flow());
-        const std::vector<Solid> solids = body.solids();
-        CoverBuilder builder(mesh, flow.graph(), halo);
-        flow.setGeometry(builder.build(solids), solids);
-        CHECK(flow.toSteadyState(1e3, 1e-6, 30) < 30);
-        const FlowErrors e = flow.errors();
-        table.add(1.0/n, {{"u L2", e.velocity}, {"u H1", e.gradient}, {"p L2", e.pressure}});
-    }
-    table.print();
-    return table;
-}
-
 ErrorTable couette(const char* title, double rho, double mu, const std::vector<int>& sizes)
 {
     usePetsc();
@@ -66,7 +33,7 @@ ErrorTable couette(const char* title, double rho, double mu, const std::vector<i
         const Halo halo(mesh, MPI_COMM_WORLD);
         AnnularCouette annulus;
         annulus.centre = Vec3(0.507, 0.489, 0);
-        ForcedFlow flow(mesh, halo, singleFluid(rho, mu), steadyControls(), annulus.flow(rho));
+        ForcedFlow flow(mesh, halo, oneFluid(rho, mu), steadyControls(), annulus.flow(rho));
         const std::vector<Solid> solids = annulus.solids();
         CoverBuilder builder(mesh, flow.graph(), halo);
         flow.setGeometry(builder.build(solids), solids);
@@ -101,22 +68,21 @@ void checkCouette(const ErrorTable& table, double leastOrder = 0.95)
 
 } // namespace
 
-TEST_CASE("Stokes around a disc") { checkOrders(aroundBody(2, "Stokes, disc", 1e-3, 1, {16, 32, 64})); }
+TEST_CASE("Stokes around a disc") { checkOrders(errorsAroundBody(2, "Stokes, disc", 1e-3, 1, {16, 32, 64})); }
 /// Meshes on which viscosity rules tau more and more: between its branches the velocity's order is 1.88.
 TEST_CASE("Navier-Stokes around a disc")
 {
-    const ErrorTable table = aroundBody(2, "Navier-Stokes, disc, mu 0.01", 1, 1e-2, {24, 48, 96});
+    const ErrorTable table = errorsAroundBody(2, "Navier-Stokes, disc, mu 0.01", 1, 1e-2, {24, 48, 96});
     checkOrders(table);
     CHECK(table.value("u L2", 1) < 2.76e-3); // with one branch, of order 1.91 from 24 cells to these 48
 }
-TEST_CASE("Stokes around a sphere") { checkOrders(aroundBody(3, "Stokes, sphere", 1e-3, 1, {6, 12, 24})); }
 /// Errors of the velocity three quarters, of the pressure six tenths of those without.
 TEST_CASE("Viscous residual around a disc")
 {
-    const ErrorTable stokes = aroundBody(2, "Stokes, disc, viscous residual", 1e-3, 1, {16, 32, 64}, true);
+    const ErrorTable stokes = errorsAroundBody(2, "Stokes, disc, viscous residual", 1e-3, 1, {16, 32, 64}, true);
     checkOrders(stokes);
     CHECK(stokes.value("p L2", 2) < 0.035);
-    const ErrorTable inertial = aroundBody(2, "Navier-Stokes, disc, mu 0.01, viscous residual", 1, 1e-2, {24, 48, 96}, true);
+    const ErrorTable inertial = errorsAroundBody(2, "Navier-Stokes, disc, mu 0.01, viscous residual", 1, 1e-2, {24, 48, 96}, true);
     checkOrders(inertial);
     CHECK(inertial.value("u L2", 2) < 5e-4);
 }
@@ -137,5 +103,5 @@ TEST_CASE("Couette flow between cut cylinders, velocity of order 2" * doctest::s
 }
 TEST_CASE("Navier-Stokes around a disc, mu 1e-4" * doctest::skip()) // takes minutes
 {
-    checkOrders(aroundBody(2, "Navier-Stokes, disc, mu 1e-4", 1, 1e-4, {12, 24, 48}));
+    checkOrders(errorsAroundBody(2, "Navier-Stokes, disc, mu 1e-4", 1, 1e-4, {12, 24, 48}));
 }
