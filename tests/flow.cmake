@@ -32,8 +32,13 @@ flotsam_test(squeezedFluid verification SOURCES verification/squeezedFluid.cpp
 flotsam_test(velocityChoice unit SOURCES unit/velocityChoice.cpp LIBRARIES flotsam_algebra)
 flotsam_test(viscousSolve verification SOURCES verification/viscousSolve.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
+flotsam_test(iterationCounts verification SOURCES verification/iterationCounts.cpp
+  LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(narrowGaps verification SOURCES verification/narrowGaps.cpp
   LIBRARIES flotsam_equations flotsam_test_support)
+flotsam_test(allocations verification SOURCES verification/allocations.cpp
+  LIBRARIES flotsam_coupling flotsam_test_support)
+target_link_options(test_allocations PRIVATE -Wl,--wrap=malloc)
 flotsam_test(enteringBodies verification SOURCES verification/enteringBodies.cpp
   LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
 flotsam_test(fastBodies verification SOURCES verification/fastBodies.cpp

@@ -66,6 +66,8 @@ def _targets(rows):
         series = sorted((number(o, "nodes"), number(o, "total"), number(o, "peakMB")) for o, _ in _pairs(rows) if o["scene"] == "dam break " + dim)
         if len(series) > 1:
             add(f"growth per node, {dim}, {series[0][0]:.0f} to {series[-1][0]:.0f} nodes", 1.5, series[-1][1] / series[0][1])
+            iterations = [number(o, "iterations") for o, _ in sorted(_pairs(rows), key=lambda pair: number(pair[0], "nodes")) if o["scene"] == "dam break " + dim]
+            add(f"most iterations over those of the smallest mesh, {dim}, {series[0][0]:.0f} to {series[-1][0]:.0f} nodes", 1.2, max(iterations) / iterations[0])
             if dim == "3D":
                 add("kB per additional node, 3D", 1.5, 1.048576e3 * (series[-1][2] - series[0][2]) / (series[-1][0] - series[0][0]))
     for ours, _ in _pairs(rows):

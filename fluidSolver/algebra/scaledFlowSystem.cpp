@@ -112,11 +112,12 @@ void ScaledFlowSystem::setDiagonals()
 
 /// Takes from the continuity rows of basins without a prescribed pressure what no velocity can balance: volume that surfaces sweep there, spread as the level is weighed,
 /// so that gas makes room for it. Returns that volume [m^dim/s], all basins.
-double ScaledFlowSystem::balanceContinuity(double* y) const
+double ScaledFlowSystem::balanceContinuity(double* y)
 {
     const FlowSystem& s = *system_;
     if (s.nLevels == 0) return 0;
-    std::vector<double> sum(s.nLevels, 0.0);
+    std::vector<double>& sum = levelSums_;
+    sum.assign(s.nLevels, 0.0);
     for (int i = 0; i < mesh_.nOwned; ++i)
         if (s.level[i] >= 0) sum[s.level[i]] += y[std::size_t(i)*B_ + B_ - 1];
     halo_.sum(sum.data(), s.nLevels);
@@ -126,11 +127,12 @@ double ScaledFlowSystem::balanceContinuity(double* y) const
 }
 
 /// A solve does not change the level of such basins: solids that are partly outside of the mesh or between two of them feel it.
-void ScaledFlowSystem::removeMeans(std::vector<double>& p) const
+void ScaledFlowSystem::removeMeans(std::vector<double>& p)
 {
     const FlowSystem& s = *system_;
     if (s.nLevels == 0) return;
-    std::vector<double> mean(s.nLevels, 0.0);
+    std::vector<double>& mean = levelSums_;
+    mean.assign(s.nLevels, 0.0);
     for (int i = 0; i < mesh_.nOwned; ++i)
         if (s.level[i] >= 0) mean[s.level[i]] += s.levelWeight[i]*p[i];
     halo_.sum(mean.data(), s.nLevels);

@@ -56,8 +56,8 @@ private:
     void addPressureSources(double* r) const;
     void preconditionUnscaled(const double* r);
     void finishProduct(const FlowOperator& op, double* y, const double* ofPressure);
-    double balanceContinuity(double* y) const;
-    void removeMeans(std::vector<double>& p) const;
+    double balanceContinuity(double* y);
+    void removeMeans(std::vector<double>& p);
     FlowOperator product() const { return {graph_, halo_, *system_, mesh_.nOwned}; }
 
     const SimplexMesh& mesh_;
@@ -79,6 +79,7 @@ private:
     std::vector<double> pressureRows_, gradient_; // work: nOwned, nOwned*dim
     std::vector<double> pressureLocal_;     // work: nNodes
     std::vector<double> q_, qRows_, qWork_; // nDof per solid
+    std::vector<double> levelSums_;         // work: FlowSystem::nLevels
 };
 
 } // namespace flotsam

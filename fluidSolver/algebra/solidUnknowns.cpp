@@ -30,26 +30,26 @@ void SolidUnknowns::set(const FlowSystem& system)
     }
 }
 
-std::vector<double> SolidUnknowns::broadcast(const double* entries) const
+const std::vector<double>& SolidUnknowns::broadcast(const double* entries)
 {
-    std::vector<double> values(nEntries());
-    if (halo_.rank() == 0) std::copy(entries, entries + nEntries(), values.begin());
-    MPI_Bcast(values.data(), nEntries(), MPI_DOUBLE, 0, halo_.comm());
-    return values;
+    values_.resize(nEntries());
+    if (halo_.rank() == 0) std::copy(entries, entries + nEntries(), values_.begin());
+    MPI_Bcast(values_.data(), nEntries(), MPI_DOUBLE, 0, halo_.comm());
+    return values_;
 }
 
-void SolidUnknowns::readVelocity(const double* entries, std::vector<double>& q) const
+void SolidUnknowns::readVelocity(const double* entries, std::vector<double>& q)
 {
     if (isEmpty()) return;
-    const std::vector<double> values = broadcast(entries);
+    const std::vector<double>& values = broadcast(entries);
     for (std::size_t f = 0; f < free_.size(); ++f)
         for (int d = 0; d < nDof_; ++d) q[free_[f]*nDof_ + d] = values[f*nDof_ + d]*scale_[f*nDof_ + d];
 }
 
-void SolidUnknowns::readRows(const double* entries, std::vector<double>& rows) const
+void SolidUnknowns::readRows(const double* entries, std::vector<double>& rows)
 {
     if (isEmpty()) return;
-    const std::vector<double> values = broadcast(entries);
+    const std::vector<double>& values = broadcast(entries);
     for (std::size_t f = 0; f < free_.size(); ++f)
         for (int d = 0; d < nDof_; ++d) rows[free_[f]*nDof_ + d] = values[f*nDof_ + d]/scale_[f*nDof_ + d];
 }

@@ -25,8 +25,8 @@ public:
     const std::vector<int>& free() const { return free_; }      ///< solids whose velocity is unknown
     double scale(int f, int d) const { return scale_[f*nDof_ + d]; }
 
-    void readVelocity(const double* entries, std::vector<double>& q) const;     ///< collective
-    void readRows(const double* entries, std::vector<double>& rows) const;      ///< collective
+    void readVelocity(const double* entries, std::vector<double>& q);           ///< collective
+    void readRows(const double* entries, std::vector<double>& rows);            ///< collective
     void writeRows(const std::vector<double>& rows, double* entries) const;     ///< rank 0
     void writeVelocity(const std::vector<double>& q, double* entries) const;    ///< rank 0
 
@@ -35,7 +35,7 @@ public:
     void addInertia(const double* q, double* rows) const;
 
 private:
-    std::vector<double> broadcast(const double* entries) const;
+    const std::vector<double>& broadcast(const double* entries);
 
     const Halo& halo_;
     const FlowSystem* system_ = nullptr;
@@ -43,6 +43,7 @@ private:
     std::vector<int> free_;
     std::vector<Eigen::MatrixXd> inverse_;
     std::vector<double> scale_; // free*nDof
+    std::vector<double> values_; // work: free*nDof
 };
 
 } // namespace flotsam

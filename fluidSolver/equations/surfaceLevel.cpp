@@ -105,6 +105,7 @@ FacingElements<D>::FacingElements(const SimplexMesh& mesh, const Halo& halo, con
 {
     const std::vector<int> candidates = bandElements(mesh, alpha, cover);
     const std::vector<double> isNear = nearSurface(mesh, halo, alpha, candidates);
+    elements.reserve(candidates.size());
     for (int e : candidates)
     {
         const int* nodes = &mesh.elements[std::size_t(e)*N];
@@ -131,6 +132,8 @@ FacingElements<D>::FacingElements(const SimplexMesh& mesh, const Halo& halo, con
     for (int i = 0; i < mesh.nOwned; ++i)
         if (isNear[i] > 0 && isInBand(alpha[i])) band.push_back(i);
     sums.resize(node.size()*N);
+    wanted_.reserve(node.size());
+    acting_.reserve(elements.size());
     isWanted.assign(node.size(), 0);
     for (int i : band) want(local[i]);
     for (int e = 0; e < int(elements.size()); ++e)
@@ -202,13 +205,15 @@ double centroidHeight(const DualCells& cells, int i, const double* normal, int d
     return result;
 }
 
+struct Slabs { std::vector<double> share, mean, level; };   // of the wanted nodes
+
 /// The level of the wanted nodes of the band from the sums around them; wanted: their places in the band. The sums become unit vectors.
 template<int D>
-std::vector<double> levelsOf(const std::vector<int>& wanted, FacingElements<D>& facing, const std::vector<double>& alpha, const std::vector<double>& width,
-    const DualCells& cells, const std::vector<double>& atNode)
+const std::vector<double>& levelsOf(const std::vector<int>& wanted, FacingElements<D>& facing, const std::vector<double>& alpha, const std::vector<double>& width,
+    const DualCells& cells, const std::vector<double>& atNode, Slabs& work)
 {
-    std::vector<double> shares, means(wanted.size()), slabs(wanted.size());
-    shares.reserve(wanted.size());
+    std::vector<double> &shares = work.share, &means = work.mean, &slabs = work.level;
+    for (std::vector<double>* v : {&shares, &means, &slabs}) v->resize(wanted.size());
     for (std::size_t m = 0; m < wanted.size(); ++m)
     {
         const int i = facing.band[wanted[m]];
@@ -217,7 +222,7 @@ std::vector<double> levelsOf(const std::vector<int>& wanted, FacingElements<D>& 
         length = std::sqrt(length);
         for (int d = 0; d < D; ++d) sum[d] /= length;
         // where the neighbours do not agree on a direction (sheets, corners) there is no slab of the cell to take the mean over
-        shares.push_back(std::clamp((length/sum[D] - 0.5)/0.45, 0., 1.));
+        shares[m] = std::clamp((length/sum[D] - 0.5)/0.45, 0., 1.);
         means[m] = alpha[i];
         slabs[m] = thicknessInWidths(cells, i, sum, width[i]);
     }
@@ -239,6 +244,9 @@ void takeMeans(const SimplexMesh& mesh, const Halo& halo, const std::vector<doub
     FacingElements<D> facing(mesh, halo, alpha, cover);
     std::vector<double> lastChange(facing.band.size()), before;
     std::vector<int> wanted, moved;
+    wanted.reserve(facing.band.size());
+    moved.reserve(facing.node.size());
+    Slabs work;
     for (int repeat = 0; repeat < mostRepeats; ++repeat)
     {
         facing.sumGradients(level);
@@ -251,7 +259,7 @@ void takeMeans(const SimplexMesh& mesh, const Halo& halo, const std::vector<doub
             for (int d = 0; d < D; ++d) square += sum[d]*sum[d];
             if (facing.isWanted[l] && std::sqrt(square) > 1e-12*sum[D]) wanted.push_back(int(k));
         }
-        const std::vector<double> found = levelsOf<D>(wanted, facing, alpha, width, cells, atNode);
+        const std::vector<double>& found = levelsOf<D>(wanted, facing, alpha, width, cells, atNode, work);
         before = level;
         double change = 0;
         // as much as it is of alpha, four times: far from the surface the level is of little use
