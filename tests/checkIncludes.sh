@@ -1,10 +1,11 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # checkIncludes.sh [ROOT]
-# The two structural rules of the sources, checked on their #include lines:
+# The structural rules of the sources, the first two checked on their #include lines:
 #   1. extensions: .C and .H may include OpenFOAM, .cpp and .hpp may not (nor any .H, which would let it in);
 #      LIGGGHTS, PETSc and HDF5 are each included in one folder.
 #   2. arrows: a folder includes only the folders that its row below names; fluidSolver never includes demCoupling.
+#   3. tolerances: doctest::Approx in tests/support/near.hpp alone; its epsilon is absolute for values below 1.
 # Prints file:line of every breach; fails when there is one.
 set -u
 cd "${1:-$(dirname "$0")/..}" || exit 2
@@ -116,6 +117,13 @@ while IFS=: read -r file line text; do
         checkForeign "$file" "$line" "$row" "$included"
     fi
 done < <(grep -nE '^[[:space:]]*#[[:space:]]*include' $files /dev/null)
+
+while IFS=: read -r file line text; do
+    case $file in
+        '' | tests/support/near.hpp) ;;
+        *) breach "$file:$line: doctest's Approx; use near or within of support/near.hpp" ;;
+    esac
+done < <(grep -nw 'Approx' $(grep '^tests/' <<< "$files") /dev/null)
 
 echo "checkIncludes: $includes includes in $(wc -w <<< "$files") files, $breaches breaches"
 [ "$breaches" -eq 0 ]

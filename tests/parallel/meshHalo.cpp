@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/boxMesh.hpp"
 #include "support/meshChecks.hpp"
+#include "support/near.hpp"
 
 #include <doctest/doctest.h>
 
@@ -42,18 +43,18 @@ TEST_CASE("box mesh: integrals and the assembled Laplacian equal those of one ra
         const SimplexMesh mesh = makeMesh(MPI_COMM_WORLD, dim), whole = makeMesh(MPI_COMM_SELF, dim);
         const MeshSummary shared = summarise(mesh, NodeGraph(mesh), Halo(mesh, MPI_COMM_WORLD));
         const MeshSummary serial = summarise(whole, NodeGraph(whole), Halo(whole, MPI_COMM_SELF));
-        CHECK(shared.volume == doctest::Approx(serial.volume).epsilon(1e-13));
+        CHECK(shared.volume == near(serial.volume, 1e-14));
         CHECK(shared.elements == serial.elements);
         CHECK(shared.nodes == serial.nodes);
         CHECK(shared.splitDigest == serial.splitDigest);
-        CHECK(shared.laplacian == doctest::Approx(serial.laplacian).epsilon(1e-12));
+        CHECK(shared.laplacian == near(serial.laplacian, 1e-14));
         for (std::size_t p = 0; p < serial.patchArea.size(); ++p)
         {
-            CHECK(shared.patchArea[p] == doctest::Approx(serial.patchArea[p]).epsilon(1e-13));
-            CHECK(shared.nodalPatchArea[p] == doctest::Approx(serial.patchArea[p]).epsilon(1e-13));
+            CHECK(shared.patchArea[p] == near(serial.patchArea[p], 1e-14));
+            CHECK(shared.nodalPatchArea[p] == near(serial.patchArea[p], 1e-14));
         }
-        CHECK(serial.patchNormal[0][0] == doctest::Approx(-serial.patchArea[0]).epsilon(1e-13));
-        CHECK(serial.patchNormal[3][1] == doctest::Approx(serial.patchArea[3]).epsilon(1e-13));
+        CHECK(serial.patchNormal[0][0] == near(-serial.patchArea[0], 1e-14));
+        CHECK(serial.patchNormal[3][1] == near(serial.patchArea[3], 1e-14));
     }
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/near.hpp"
 #include "unit/demSupport.hpp"
 
 #include <doctest/doctest.h>
@@ -84,16 +85,16 @@ TEST_CASE("at rest the floor carries the weight and the moment about the origin"
             engine.advance(1e-3);
         const Load floor = engine.meanWallLoads()[0];
         const double weight = 0.0472 * gravity;
-        CHECK(floor.force.z() == doctest::Approx(-weight).epsilon(1e-6));
-        CHECK(floor.moment.x() == doctest::Approx(-0.03 * weight).epsilon(1e-4));
-        CHECK(floor.moment.y() == doctest::Approx(0.07 * weight).epsilon(1e-4));
+        CHECK(floor.force.z() == near(-weight, 1e-13));
+        CHECK(floor.moment.x() == near(-0.03 * weight, 1e-13));
+        CHECK(floor.moment.y() == near(0.07 * weight, 1e-13));
         const auto contacts = engine.contacts();
         REQUIRE(contacts.size() == 1);
         CHECK(contacts[0].body == 0);
         CHECK(contacts[0].other == -1);
-        CHECK(contacts[0].force.z() == doctest::Approx(weight).epsilon(1e-3));
+        CHECK(contacts[0].force.z() == near(weight, 1e-13));
         CHECK((contacts[0].point - Vec3(0.07, 0.03, 0)).norm() < 1e-5);
-        CHECK(contacts[0].overlap == doctest::Approx(weight / 1e6).epsilon(0.01)); // the whole face shares K
+        CHECK(contacts[0].overlap == near(weight / 1e6, 5e-10)); // the whole face shares K
     }
 }
 
@@ -109,10 +110,10 @@ TEST_CASE("planes of any direction act alike")
         engine.advance(5e-3);
         speeds.push_back(engine.states()[0].motion.velocity.dot(n));
         CHECK(engine.states()[0].motion.velocity.cross(n).norm() < 1e-12);
-        CHECK(engine.meanWallLoads()[0].force.dot(n) * 5e-3 == doctest::Approx(-0.05 * (0.2 + speeds.back())).epsilon(1e-9));
+        CHECK(engine.meanWallLoads()[0].force.dot(n) * 5e-3 == near(-0.05 * (0.2 + speeds.back()), 1e-13));
     }
     for (const double v : speeds)
-        CHECK(v == doctest::Approx(speeds[0]).epsilon(1e-6));
+        CHECK(v == near(speeds[0], 1e-11));
 }
 
 TEST_CASE("pipes: a bar across two of them leans on both")
@@ -125,8 +126,8 @@ TEST_CASE("pipes: a bar across two of them leans on both")
     for (int i = 0; i < 100; ++i)
         engine.advance(1e-3);
     const auto walls = engine.meanWallLoads();
-    CHECK(walls[0].force.x() == doctest::Approx(1).epsilon(1e-3));
-    CHECK(walls[1].force.x() == doctest::Approx(1).epsilon(1e-3));
+    CHECK(walls[0].force.x() == near(1, 2e-13));
+    CHECK(walls[1].force.x() == near(1, 2e-13));
     CHECK(engine.contacts().size() == 2);
     CHECK(engine.states()[0].motion.velocity.norm() < 1e-4);
 }
@@ -167,6 +168,6 @@ TEST_CASE("a body squeezed evenly between two walls loads both")
     LiggghtsEngine engine(setup);
     engine.advance(1e-3);
     CHECK(engine.hasContact());
-    CHECK(engine.meanWallLoads()[0].force.z() == doctest::Approx(-10).epsilon(1e-6));
-    CHECK(engine.meanWallLoads()[1].force.z() == doctest::Approx(10).epsilon(1e-6));
+    CHECK(engine.meanWallLoads()[0].force.z() == near(-10, 2e-13));
+    CHECK(engine.meanWallLoads()[1].force.z() == near(10, 2e-13));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "equations/dualCells.hpp"
 #include "support/boxMesh.hpp"
+#include "support/near.hpp"
 
 #include <doctest/doctest.h>
 
@@ -14,11 +15,11 @@ TEST_CASE("share moments: the shares of all corners make up the simplex")
         const int n = dim + 1;
         // mean of lambda_0 over the simplex is 1/n, of lambda_0^2 2/(n(n+1)), of lambda_0 lambda_1 1/(n(n+1))
         const double own = 1 - dim*m.first;
-        CHECK((own + dim*m.first)/n == doctest::Approx(1./n));
+        CHECK((own + dim*m.first)/n == near(1./n, 1e-14));
         const double ownSquare = 1 - 2*dim*m.first + dim*m.square + dim*(dim - 1)*m.mixed;
-        CHECK((ownSquare + dim*m.square)/n == doctest::Approx(2./(n*(n + 1))));
+        CHECK((ownSquare + dim*m.square)/n == near(2./(n*(n + 1)), 1e-14));
         const double ownMixed = m.first - m.square - (dim - 1)*m.mixed;
-        CHECK((2*ownMixed + (dim - 1)*m.mixed)/n == doctest::Approx(1./(n*(n + 1))));
+        CHECK((2*ownMixed + (dim - 1)*m.mixed)/n == near(1./(n*(n + 1)), 1e-14));
         CHECK(m.square > m.first*m.first);
     }
 }
@@ -37,13 +38,13 @@ TEST_CASE("dual cells fill the mesh; their moments add up to those of the box")
             const double n[3] = {0, 1, 0};
             const double L = cells.halfWidth(i, n);
             const double K[6] = {0, 2, 0, 0, 0, 0};
-            CHECK(cells.meanBend(i, K) == doctest::Approx(L*L/3).epsilon(1e-12));
+            CHECK(cells.meanBend(i, K) == near(L*L/3, 1e-12));
             total += cells.volume(i);
             first += cells.volume(i)*y;
             second += cells.volume(i)*(y*y + L*L/3);
         }
-        CHECK(total == doctest::Approx(volume).epsilon(1e-13));
-        CHECK(first == doctest::Approx(volume).epsilon(1e-13));
-        CHECK(second == doctest::Approx(volume*4/3).epsilon(1e-13));
+        CHECK(total == near(volume, 1e-13));
+        CHECK(first == near(volume, 1e-13));
+        CHECK(second == near(volume*4/3, 1e-13));
     }
 }

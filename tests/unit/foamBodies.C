@@ -3,6 +3,7 @@
 #include "demCoupling/foam/bodyPlacement.hpp"
 #include "demCoupling/foam/structureChecks.H"
 #include "support/bodiesScene.H"
+#include "support/near.hpp"
 
 #include <doctest/doctest.h>
 
@@ -60,11 +61,11 @@ TEST_CASE("spheres of a union are as fine as its thinnest part demands")
     const auto spheres = [&](const std::string& shape) { return s.read(bodies("shape { " + shape + " } density 600; position (1 0.5 0.2);")).bodies[0].spheres; };
     const std::string trunk = "type cylinder; end1 (0 0 0); end2 (0.3 0 0); radius 0.02;", wad = "type cylinder; end1 (-0.1 0 0); end2 (0.1 0 0); radius 0.1;";
     const double radius = spheres(trunk)[0].radius;
-    CHECK(radius == doctest::Approx(0.01));
-    for (const SurfaceSphere& sphere : spheres("type union; parts { a { " + trunk + " } b { " + wad + " } }")) CHECK(sphere.radius == doctest::Approx(radius));
+    CHECK(radius == near(0.01, 1e-14));
+    for (const SurfaceSphere& sphere : spheres("type union; parts { a { " + trunk + " } b { " + wad + " } }")) CHECK(sphere.radius == near(radius, 1e-14));
     // a root that points aslant: its bounding box is no measure of its thickness
     for (const SurfaceSphere& sphere : spheres("type union; parts { a { type cylinder; end1 (0 0 0); end2 (0.1 0.1 0.1); radius 0.02; } b { " + wad + " } }"))
-        CHECK(sphere.radius == doctest::Approx(radius));
+        CHECK(sphere.radius == near(radius, 1e-14));
     CHECK(has(s.message(bodies("shape { type union; parts { a { " + trunk + " } b { " + wad + " } } } density 600; spheres { radius 0.03; }")), "smallest extent is 0.04 m"));
 }
 
@@ -75,10 +76,10 @@ TEST_CASE("one body: mass, inertia, spheres, pose")
     REQUIRE(input.bodies.size() == 1);
     const BodyDefinition& b = input.bodies[0];
     CHECK(b.name == "bar");
-    CHECK(b.volume == doctest::Approx(0.2*0.02*0.04));
-    CHECK(b.mass == doctest::Approx(600*b.volume));
-    CHECK(b.principalInertia[0] == doctest::Approx(b.mass/12*(0.02*0.02 + 0.04*0.04)));
-    CHECK(b.principalInertia[1] == doctest::Approx(b.mass/12*(0.2*0.2 + 0.04*0.04)));
+    CHECK(b.volume == near(0.2*0.02*0.04, 1e-14));
+    CHECK(b.mass == near(600*b.volume, 1e-14));
+    CHECK(b.principalInertia[0] == near(b.mass/12*(0.02*0.02 + 0.04*0.04), 1e-14));
+    CHECK(b.principalInertia[1] == near(b.mass/12*(0.2*0.2 + 0.04*0.04), 1e-14));
     CHECK((b.pose.position - Vec3(0.5, 0.5, 0.2)).norm() < 1e-15);
     CHECK((b.pose.orientation*Vec3::UnitX() - Vec3(0, 0, -1)).norm() < 1e-14);
     CHECK(b.motion.velocity == Vec3(1, 0, 0));
@@ -103,7 +104,7 @@ TEST_CASE("a shape off its centroid and axes: the geometry stays where the user 
     const Eigen::Quaterniond turn(Eigen::AngleAxisd(M_PI/6, Vec3::UnitZ()));
     const Solid solid = makeSolids(input)[0];
     for (const Vec3& x : {Vec3(0.2, 0.5, 0.1), Vec3(0.5, 0.5, 0.1), Vec3(0.4, 0.37, 0.12), Vec3(1.5, 0.5, 0.3)})
-        CHECK(solid.distance(x) == doctest::Approx(user->distance(turn.conjugate()*(x - Vec3(0.4, 0.1, 0)))));
+        CHECK(solid.distance(x) == near(user->distance(turn.conjugate()*(x - Vec3(0.4, 0.1, 0))), 1e-14));
 }
 
 TEST_CASE("arrays of structures and bodies, and their walls")
@@ -116,7 +117,7 @@ TEST_CASE("arrays of structures and bodies, and their walls")
         + bodies(bar + "material wood; position (0.3 0.3 0.1); array { count (2 3 1); spacing (0.4 0.1 0); }"));
     REQUIRE(input.structures.size() == 4);
     CHECK(input.structures[3].solid.name == "pipes.3");
-    CHECK(input.structures[3].solid.distance(Vec3(1.5, 0.5, 0.35)) == doctest::Approx(-0.01));
+    CHECK(input.structures[3].solid.distance(Vec3(1.5, 0.5, 0.35)) == near(-0.01, 3e-14));
     CHECK(input.structures[0].solid.wall == Solid::Wall::Slip);
     REQUIRE(input.bodies.size() == 6);
     CHECK(input.bodies[1].name == "bar.1");
@@ -209,12 +210,12 @@ TEST_CASE("gaps of placed shapes")
 {
     const auto box = std::make_shared<SampledShape>(makeBox(Vec3::Zero(), Vec3(1, 0.1, 0.1)), 0.02);
     const Pose crossed{Vec3(0, 0, 0.15), Eigen::Quaterniond(Eigen::AngleAxisd(M_PI/2, Vec3::UnitZ()))};
-    CHECK(gap({"", box, {}}, {"", box, crossed}, 1) == doctest::Approx(0.05));
+    CHECK(gap({"", box, {}}, {"", box, crossed}, 1) == near(0.05, 1e-14));
     const Pose through{Vec3(0, 0, 0.08), crossed.orientation};
-    CHECK(gap({"", box, {}}, {"", box, through}, 1) == doctest::Approx(-0.02));
+    CHECK(gap({"", box, {}}, {"", box, through}, 1) == near(-0.02, 1e-14));
     CHECK(gap({"", box, {}}, {"", box, {Vec3(9, 0, 0), {1, 0, 0, 0}}}, 0.5) == 0.5);
-    CHECK(gap({"", box, {}}, {"", box, {}}, 0) == doctest::Approx(-0.05)); // in the same place: no point of a surface is inside the other
-    CHECK(gap({"", box, {}}, {"", box, {Vec3(0, 0, 0.1), {1, 0, 0, 0}}}, 0) == doctest::Approx(0));
+    CHECK(gap({"", box, {}}, {"", box, {}}, 0) == near(-0.05, 1e-14)); // in the same place: no point of a surface is inside the other
+    CHECK(gap({"", box, {}}, {"", box, {Vec3(0, 0, 0.1), {1, 0, 0, 0}}}, 0) == within(0, 1e-17));
 }
 
 TEST_CASE("structures that overlap, touch, or lie in others")
@@ -266,7 +267,7 @@ TEST_CASE("2D: a body reaches through the mesh, moved to its mid-plane")
     const BodiesInput input = s.read(bodies("shape { type box; size (0.2 0.1 0.1); } density 500; position (0.5 0.5 0); orientation { axis (0 0 1); angleDeg 20; }"));
     CHECK(input.bodies[0].isPlanar);
     CHECK(input.bodies[0].planeAxis == 2);
-    CHECK(input.bodies[0].pose.position.z() == doctest::Approx(0.05));
-    CHECK(input.bodies[0].mass == doctest::Approx(500*0.2*0.1*0.1));
+    CHECK(input.bodies[0].pose.position.z() == near(0.05, 1e-14));
+    CHECK(input.bodies[0].mass == near(500*0.2*0.1*0.1, 1e-14));
     CHECK(has(s.message(bodies("shape { type box; size (0.2 0.1 0.2); } density 500; position (0.5 0.5 0);")), "must reach through the mesh"));
 }

@@ -2,6 +2,7 @@
 /// Write times and the steps that meet them: those of OpenFOAM, and the same in a run that goes on.
 #include "foam/writeTimes.H"
 #include "support/foamCase.H"
+#include "support/near.hpp"
 
 #include <doctest/doctest.h>
 
@@ -74,7 +75,7 @@ TEST_CASE("adjusted steps end at the write times, others beside them; each count
     for (const Record& r : Run("adjustableRunTime").to(100))
     {
         CHECK(r.step < 1.5*longest);
-        if (r.isWriteTime) CHECK(r.time == doctest::Approx(begin + ++nAdjusted*interval).epsilon(1e-12));
+        if (r.isWriteTime) CHECK(r.time == near(begin + ++nAdjusted*interval, 1e-14));
     }
     for (const Record& r : Run("runTime").to(100))
         if (r.isWriteTime) CHECK(std::abs(r.time - (begin + ++nNearest*interval)) <= longest - 0.5*shortest);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/triSurface.hpp"
 #include "geometry/solid.hpp"
+#include "support/near.hpp"
 
 #include <doctest/doctest.h>
 
@@ -60,24 +61,24 @@ TEST_CASE("distances at known points")
     const auto box = makeBox(Vec3::Zero(), {2, 4, 6});
     CHECK(box->distance({0, 0, 0}) == -1);
     CHECK(box->distance({3, 0, 0}) == 2);
-    CHECK(box->distance({4, 6, 3}) == doctest::Approx(5));
-    CHECK(box->distance({0.5, 1.9, 0}) == doctest::Approx(-0.1));
+    CHECK(box->distance({4, 6, 3}) == near(5, 1e-14));
+    CHECK(box->distance({0.5, 1.9, 0}) == near(-0.1, 1e-14));
 
-    CHECK(makeSphere({1, 0, 0}, 0.5)->distance({1, 2, 0}) == doctest::Approx(1.5));
+    CHECK(makeSphere({1, 0, 0}, 0.5)->distance({1, 2, 0}) == near(1.5, 1e-14));
 
     const auto cylinder = makeCylinder({0, 0, -1}, {0, 0, 3}, 0.5);
-    CHECK(cylinder->distance({0, 0, 1}) == doctest::Approx(-0.5));
-    CHECK(cylinder->distance({0.1, 0, 2.9}) == doctest::Approx(-0.1));
-    CHECK(cylinder->distance({2, 0, 0}) == doctest::Approx(1.5));
-    CHECK(cylinder->distance({3.5, 0, 7}) == doctest::Approx(5));
+    CHECK(cylinder->distance({0, 0, 1}) == near(-0.5, 1e-14));
+    CHECK(cylinder->distance({0.1, 0, 2.9}) == near(-0.1, 1e-14));
+    CHECK(cylinder->distance({2, 0, 0}) == near(1.5, 1e-14));
+    CHECK(cylinder->distance({3.5, 0, 7}) == near(5, 1e-14));
 
     const auto capsule = makeCapsule({0, 0, 0}, {0, 0, 1}, 0.25);
-    CHECK(capsule->distance({0, 0, 2}) == doctest::Approx(0.75));
-    CHECK(capsule->distance({1, 0, 0.3}) == doctest::Approx(0.75));
+    CHECK(capsule->distance({0, 0, 2}) == near(0.75, 1e-14));
+    CHECK(capsule->distance({1, 0, 0.3}) == near(0.75, 1e-14));
 
     const auto both = makeUnion({box, cylinder});
-    CHECK(both->distance({4, 6, 3}) == doctest::Approx(5));
-    CHECK(both->distance({0.9, 0, 0}) == doctest::Approx(-0.1));
+    CHECK(both->distance({4, 6, 3}) == near(5, 1e-14));
+    CHECK(both->distance({0.9, 0, 0}) == near(-0.1, 1e-14));
 }
 
 TEST_CASE("the distance changes by at most the way, and is zero on the surface's points")
@@ -125,8 +126,8 @@ TEST_CASE("moments of unions: exact without overlap, close to exact with")
     // a ball half inside another of the same size: union = 2 balls - lens
     const double r = 0.3, d = 0.3, lens = M_PI * (4 * r + d) * std::pow(2 * r - d, 2) / 12;
     const VolumeMoments balls = makeUnion({makeSphere(Vec3::Zero(), r), makeSphere({d, 0, 0}, r)})->moments();
-    CHECK(balls.volume == doctest::Approx(8 * M_PI / 3 * r * r * r - lens).epsilon(1e-4));
-    CHECK(balls.centroid[0] == doctest::Approx(d / 2).epsilon(1e-4));
+    CHECK(balls.volume == near(8 * M_PI / 3 * r * r * r - lens, 5e-5));
+    CHECK(balls.centroid[0] == near(d / 2, 1e-12));
 }
 
 TEST_CASE("surfaces are closed, outward, and enclose the shape's volume to the order of the facets")
@@ -145,7 +146,7 @@ TEST_CASE("surfaces are closed, outward, and enclose the shape's volume to the o
     {
         const auto shape = allShapes()[i];
         const VolumeMoments exact = shape->moments(), facets = enclosedMoments(shape->surface(0.02));
-        CHECK(facets.volume == doctest::Approx(exact.volume).epsilon(3e-3));
+        CHECK(facets.volume == near(exact.volume, 3e-3));
         CHECK((facets.centroid - exact.centroid).norm() < 1e-12);
         CHECK((facets.inertia - exact.inertia).norm() < 6e-3 * exact.inertia.norm());
     }
@@ -169,8 +170,8 @@ TEST_CASE("facets follow curved shapes: the sagitta is that of a chord no longer
 
 TEST_CASE("plane sections")
 {
-    CHECK(sectionArea(makeBox(Vec3::Zero(), {1, 2, 3})->surface(1), {0, 0, 0.2}, Vec3::UnitZ()) == doctest::Approx(2));
-    CHECK(sectionArea(makeSphere(Vec3::Zero(), 0.5)->surface(0.01), {0, 0, 0.3}, Vec3::UnitZ()) == doctest::Approx(M_PI * 0.16).epsilon(1e-3));
+    CHECK(sectionArea(makeBox(Vec3::Zero(), {1, 2, 3})->surface(1), {0, 0, 0.2}, Vec3::UnitZ()) == near(2, 1e-14));
+    CHECK(sectionArea(makeSphere(Vec3::Zero(), 0.5)->surface(0.01), {0, 0, 0.3}, Vec3::UnitZ()) == near(M_PI * 0.16, 2e-4));
 }
 
 TEST_CASE("bounds hold the shape; a solid's bounds turn with it")

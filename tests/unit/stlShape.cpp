@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/shape.hpp"
+#include "support/near.hpp"
 
 #include <doctest/doctest.h>
 #include <unistd.h>
@@ -83,7 +84,7 @@ TEST_CASE("an STL box is the box: distance, bounds, moments; ASCII, either orien
         for (const Vec3& x : randomPoints(1.2, 2000)) worst = std::max(worst, std::abs(stl->distance(x) - box->distance(x)));
         CHECK(worst < 1e-12);
         const VolumeMoments a = stl->moments(), b = box->moments();
-        CHECK(a.volume == doctest::Approx(b.volume).epsilon(1e-14));
+        CHECK(a.volume == near(b.volume, 1e-14));
         CHECK((a.centroid - b.centroid).norm() < 1e-14);
         CHECK((a.inertia - b.inertia).norm() < 1e-14);
         CHECK((stl->bounds()[0] - box->bounds()[0]).norm() < 1e-15);
@@ -101,7 +102,7 @@ TEST_CASE("binary STL with scale: a fine capsule has the capsule's distance and 
     double worst = 0;
     for (const Vec3& x : randomPoints(0.8, 2000)) worst = std::max(worst, std::abs(stl->distance(x) - capsule->distance(x)));
     CHECK(worst < 0.02 * 0.02 / 0.3);
-    CHECK(stl->moments().volume == doctest::Approx(capsule->moments().volume).epsilon(2e-3));
+    CHECK(stl->moments().volume == near(capsule->moments().volume, 2e-3));
 }
 
 TEST_CASE("the sign is right near sharp edges and corners, where face normals fail")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "equations/transportBoundary.hpp"
 #include "support/boxMesh.hpp"
+#include "support/near.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -165,7 +166,7 @@ TEST_CASE("pair fluxes of a linear velocity are exact: the flux through the dual
         {
             if (!isBoundary[i])
             {
-                CHECK(sum[i] == doctest::Approx(0.4*volume[i]).epsilon(1e-12));
+                CHECK(sum[i] == near(0.4*volume[i], 1e-14));
             }
         }
     }
@@ -202,7 +203,7 @@ TEST_CASE("given boundary velocity: int N_i u.n adds up to the divergence; open 
                 divergence += scene.mesh.volume[e]*scene.mesh.gradN[std::size_t(e)*(dim + 1)*dim + k]*u[std::size_t(i)*dim + k%dim];
             }
         }
-        CHECK(through == doctest::Approx(divergence).epsilon(1e-12));
+        CHECK(through == near(divergence, 1e-14));
 
         patches[1].velocity = BoundaryPatch::Velocity::Open;
         patches[2].velocity = BoundaryPatch::Velocity::Slip;

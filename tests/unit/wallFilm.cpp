@@ -2,6 +2,7 @@
 /// The cut keeps a loose solid a film's thickness off the mesh's walls, and nothing else.
 #include "geometry/coverBuilder.hpp"
 #include "support/boxMesh.hpp"
+#include "support/near.hpp"
 
 #include <doctest/doctest.h>
 
@@ -72,7 +73,7 @@ TEST_CASE("a box on the floor, flush with the mesh or not, loses the film and ke
                     const Room room(dim, alternate);
                     const double depth = dim == 2 ? 1 : 0.37;
                     const Cover cover = room.cut(looseBox(Vec3(x, gap, 0.31), Vec3(x + 0.4, gap + 0.35, 0.31 + depth)));
-                    CHECK(cover.solidVolume[0] == doctest::Approx(0.4*depth*(gap + 0.35 - bottomOf(gap))).epsilon(1e-6));
+                    CHECK(cover.solidVolume[0] == near(0.4*depth*(gap + 0.35 - bottomOf(gap)), 2e-12));
                     CHECK(closure(room, cover).norm() < 1e-7);
                     CHECK(cover.filmNodes.empty() == false);
                 }
@@ -91,7 +92,7 @@ TEST_CASE("in a corner of walls the film is on both")
             {
                 const double x = isLeft ? 0 : 0.6;
                 const Cover cover = room.cut(looseBox(Vec3(x, 0, 0.31), Vec3(x + 0.4, 0.35, 0.31 + depth)));
-                CHECK(cover.solidVolume[0] == doctest::Approx((0.4 - bottomOf(0))*(0.35 - bottomOf(0))*depth).epsilon(1e-3));
+                CHECK(cover.solidVolume[0] == near((0.4 - bottomOf(0))*(0.35 - bottomOf(0))*depth, 1e-3));
                 CHECK(closure(room, cover).norm() < 1e-7);
             }
         }
@@ -107,7 +108,7 @@ TEST_CASE("round bodies keep their volume, structures and bodies away from walls
     solids[0].shape = makeCylinder(Vec3(0, 0, -1), Vec3(0, 0, 1), 0.2);
     solids[0].pose.position = Vec3(0.47, 0.199, 0);
     for (int k = 0; k < 4; ++k) builder.buildExactVolume(solids);
-    CHECK(builder.cover().solidVolume[0] == doctest::Approx(M_PI*0.04).epsilon(1e-4));
+    CHECK(builder.cover().solidVolume[0] == near(M_PI*0.04, 2e-5));
     CHECK(closure(room, builder.cover()).norm() < 1e-7);
 
     const auto boxOnFloor = [&](Solid::Kind kind, bool isLoose)
@@ -126,12 +127,12 @@ TEST_CASE("round bodies keep their volume, structures and bodies away from walls
         for (MeshPatch& patch : room.mesh.patches) patch.type = "wall";
     }
     const Cover away = room.cut(looseBox(Vec3(0.3, 0.13, 0), Vec3(0.7, 0.5, 1)));
-    CHECK(away.solidVolume[0] == doctest::Approx(0.4*0.37).epsilon(1e-9));
+    CHECK(away.solidVolume[0] == near(0.4*0.37, 3e-12));
     CHECK(away.filmNodes.empty());
 
     for (MeshPatch& patch : room.mesh.patches) patch.type = "patch"; // open: a body on its way out
     const Cover leaving = room.cut(looseBox(Vec3(0.8, 0, 0), Vec3(1.2, 0.35, 1)));
-    CHECK(leaving.solidVolume[0] == doctest::Approx(0.2*0.35).epsilon(1e-9));
+    CHECK(leaving.solidVolume[0] == near(0.2*0.35, 2e-12));
 }
 
 TEST_CASE("tilted boxes over the floor are cut as they are until they touch it")
@@ -145,7 +146,7 @@ TEST_CASE("tilted boxes over the floor are cut as they are until they touch it")
             Solid box = looseBox(Vec3(0.3, 0, 0), Vec3(0.6, 0.2, 1));
             box.pose.orientation = Eigen::AngleAxisd(angle, Vec3::UnitZ());
             box.pose.position[1] = gap + 0.15*std::sin(angle) + 0.1*std::cos(angle);
-            CHECK(room.cut(box).solidVolume[0] == doctest::Approx(0.3*0.2).epsilon(1e-9));
+            CHECK(room.cut(box).solidVolume[0] == near(0.3*0.2, 1e-14));
         }
 }
 
@@ -156,7 +157,7 @@ TEST_CASE("between walls one element apart there is no room for films")
     const NodeGraph graph(room.mesh);
     const Halo halo(room.mesh, MPI_COMM_WORLD);
     Solid solid = looseBox(Vec3(0.3, 0.3, 0), Vec3(0.7, 0.65, 0.1));
-    CHECK(cutMesh(room.mesh, graph, halo, {solid}).solidVolume[0] == doctest::Approx(0.4*0.35*0.1).epsilon(1e-9));
+    CHECK(cutMesh(room.mesh, graph, halo, {solid}).solidVolume[0] == near(0.4*0.35*0.1, 3e-12));
     solid.shape = makeSphere(Vec3::Zero(), 0.2);
     const double volume = cutMesh(room.mesh, graph, halo, {solid}).solidVolume[0];
     solid.isLoose = false;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "support/near.hpp"
 #include "unit/demSupport.hpp"
 
 #include <doctest/doctest.h>
@@ -53,7 +54,7 @@ TEST_CASE("single-sphere contacts rebound as wanted, on a wall and between diffe
         CAPTURE(e);
         ContactLaw law;
         law.restitution = e;
-        CHECK(rebound(scene({ball(0.01, 0.05, Vec3::Zero())}, {floorPlane}, law), 0.1) == doctest::Approx(e).epsilon(0.02));
+        CHECK(rebound(scene({ball(0.01, 0.05, Vec3::Zero())}, {floorPlane}, law), 0.1) == within(e, 0.012)); // 6 % of 0.2: see below
 
         DemSetup pair = scene({ball(0.01, 0.05, Vec3::Zero()), ball(0.02, 0.3, Vec3(0.0300001, 0, 0))}, {}, law);
         pair.bodies[0].motion.velocity.x() = 0.2;
@@ -61,7 +62,7 @@ TEST_CASE("single-sphere contacts rebound as wanted, on a wall and between diffe
         untilApart(engine);
         const auto states = engine.states();
         const double apart = states[1].motion.velocity.x() - states[0].motion.velocity.x();
-        CHECK(apart / 0.2 == doctest::Approx(e).epsilon(0.02));
+        CHECK(apart / 0.2 == within(e, 0.012));
     }
 }
 
@@ -95,9 +96,9 @@ TEST_CASE("bars: the three ways of sharing the law over a face")
             setup.bodies[0].pose.orientation = Eigen::Quaterniond::FromTwoVectors(Vec3(0.095, 0.005, 0.005), -Vec3::UnitZ());
         return rebound(setup, 0.3);
     };
-    CHECK(landing(true, false, true) == doctest::Approx(0.2).epsilon(0.03));
-    CHECK(landing(false, false, true) == doctest::Approx(0.2).epsilon(0.03));
-    CHECK(landing(true, true, false) == doctest::Approx(0.2).epsilon(0.03));
+    CHECK(landing(true, false, true) == near(0.2, 0.03));
+    CHECK(landing(false, false, true) == near(0.2, 0.03));
+    CHECK(landing(true, true, false) == near(0.2, 0.06));
     // forty spheres at once are overdamped: hardly any rebound, but no sticking either
     for (const bool perBody : {true, false})
     {
@@ -105,7 +106,7 @@ TEST_CASE("bars: the three ways of sharing the law over a face")
         CHECK(flat > 0.005);
         CHECK(flat < 0.02); // a tenth of the restitution
     }
-    CHECK(landing(true, true, true) == doctest::Approx(0.71).epsilon(0.03));
+    CHECK(landing(true, true, true) == near(0.71, 0.02));
 }
 
 TEST_CASE("a bar that lands flat does not bounce at twice the sub-step either, and one pressed between others lies still")
@@ -143,7 +144,7 @@ TEST_CASE("a sliding block slows by friction, a resting one does not creep")
         const double before = engine.states()[0].motion.velocity.x();
         engine.advance(0.03);
         const double after = engine.states()[0].motion.velocity.x();
-        CHECK((before - after) / 0.03 == doctest::Approx(mu * gravity).epsilon(1e-3));
+        CHECK((before - after) / 0.03 == near(mu * gravity, 2e-8));
     }
     setup.bodies[0].motion.velocity.x() = 0;
     LiggghtsEngine engine(setup);
@@ -270,5 +271,5 @@ TEST_CASE("crossed bars come to rest, and their energy never exceeds what it was
         CHECK(s.motion.velocity.norm() < 1e-3);
         CHECK(s.motion.angularVelocity.norm() < 0.1);
     }
-    CHECK(engine.states()[1].pose.position.z() == doctest::Approx(0.03).epsilon(1e-3)); // one lies on the other
+    CHECK(engine.states()[1].pose.position.z() == within(0.03, 1e-4)); // one lies on the other, its spheres 0.03 mm between the other's
 }
