@@ -57,11 +57,8 @@ public:
         return (n*xy - x*y)/(n*xx - x*x);
     }
 
-    /// Between the first and the last row.
-    double overallOrder(const std::string& name) const
-    {
-        return std::log(value(name, 0)/value(name, int(rows_.size()) - 1))/std::log(sizes_.front()/sizes_.back());
-    }
+    /// Shown by all rows and kept by the last two: the lesser of the two.
+    double shownOrder(const std::string& name) const { return std::min(fittedOrder(name), lastOrder(name)); }
 
     double value(const std::string& name, int row) const
     {

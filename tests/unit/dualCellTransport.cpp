@@ -32,7 +32,7 @@ TEST_CASE("a constant stays constant")
 {
     for (const int dim : {2, 3})
     {
-        TransportScene scene(MPI_COMM_WORLD, dim, 10, 0.35, fieldOf(dim));
+        TransportScene scene(MPI_COMM_WORLD, dim, 10, defaultWidth, fieldOf(dim));
         for (const double constant : {0., 0.3, 1.})
         {
             scene.alpha.assign(scene.mesh.nNodes, constant);
@@ -52,7 +52,7 @@ TEST_CASE("any start field: volume to round-off, bounds, and the same on any num
     for (const int dim : {2, 3})
     {
         const int n = dim == 2 ? 32 : 12;
-        TransportScene scene(MPI_COMM_WORLD, dim, n, 0.35, fieldOf(dim)), whole(MPI_COMM_SELF, dim, n, 0.35, fieldOf(dim));
+        TransportScene scene(MPI_COMM_WORLD, dim, n, defaultWidth, fieldOf(dim)), whole(MPI_COMM_SELF, dim, n, defaultWidth, fieldOf(dim));
         for (TransportScene* s : {&scene, &whole})
         {
             for (int i = 0; i < s->mesh.nNodes; ++i)    // a ball, and noise around it
@@ -86,7 +86,7 @@ TEST_CASE("any start field: volume to round-off, bounds, and the same on any num
 
 TEST_CASE("steps longer than a dual cell allows are divided")
 {
-    TransportScene one(MPI_COMM_WORLD, 2, 32, 0.35, vortexField()), many(MPI_COMM_WORLD, 2, 32, 0.35, vortexField());
+    TransportScene one(MPI_COMM_WORLD, 2, 32, defaultWidth, vortexField()), many(MPI_COMM_WORLD, 2, 32, defaultWidth, vortexField());
     for (TransportScene* s : {&one, &many})
     {
         s->fill(disc({0.5, 0.75, 0}, 0.15, 2));
@@ -107,7 +107,7 @@ TEST_CASE("a filling box: what enters arrives, the front moves with the fluid")
     for (const int dim : {2, 3})
     {
         const int n = dim == 2 ? 32 : 12;
-        TransportScene scene(MPI_COMM_WORLD, dim, n, 0.35, [](const Point&) { return Point{1, 0, 0}; });
+        TransportScene scene(MPI_COMM_WORLD, dim, n, defaultWidth, [](const Point&) { return Point{1, 0, 0}; });
         scene.values[0].alpha.assign(scene.values[0].alpha.size(), 1);     // xMin
         scene.patches[1].velocity = BoundaryPatch::Velocity::Open;         // xMax
         double inflow = 0, outflow = 0, first = -1, last = 0;

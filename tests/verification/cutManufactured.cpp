@@ -49,16 +49,17 @@ ErrorTable couette(const char* title, double rho, double mu, const std::vector<i
 
 void checkOrders(const ErrorTable& table)
 {
-    CHECK(table.lastOrder("u L2") > 1.9);
-    CHECK(table.lastOrder("u H1") > 0.95);
-    CHECK(table.lastOrder("p L2") > 1.5);
+    CHECK(table.shownOrder("u L2") > 1.9);
+    CHECK(table.shownOrder("u H1") > 0.95);
+    CHECK(table.shownOrder("p L2") > 1.5);
 }
 
 /// The torque by its size: its errors of both signs (stiff P1 layer, slip at the wall) nearly cancel, so that no order is seen between two meshes.
-void checkCouette(const ErrorTable& table, double leastOrder = 0.95)
+void checkCouette(const ErrorTable& table, double gradientOrder)
 {
-    CHECK(table.lastOrder("u H1") > leastOrder);
-    CHECK(table.lastOrder("p L2") > 1.5);
+    CHECK(table.fittedOrder("u L2") > 1.95);
+    CHECK(table.shownOrder("u H1") > gradientOrder);
+    CHECK(table.shownOrder("p L2") > 1.5);
     for (const char* torque : {"torque inner", "torque outer"})
     {
         CHECK(table.value(torque, 0) < 0.02);
@@ -86,7 +87,13 @@ TEST_CASE("Viscous residual around a disc")
     checkOrders(inertial);
     CHECK(inertial.value("u L2", 2) < 5e-4);
 }
-TEST_CASE("Couette flow between cut cylinders, Stokes") { checkCouette(couette("Annular Couette, Stokes", 1e-3, 1, {16, 32, 64, 96})); }
+/// The coarse meshes' gradients, 0.89 from 16 to 32 cells, keep the fit below 0.95.
+TEST_CASE("Couette flow between cut cylinders, Stokes")
+{
+    const ErrorTable table = couette("Annular Couette, Stokes", 1e-3, 1, {16, 32, 64, 96});
+    checkCouette(table, 0.92);
+    CHECK(table.lastOrder("u H1") > 0.95);
+}
 TEST_CASE("Couette flow between cut cylinders, Reynolds number 40")
 {
     // order 0.949; 0.960 with all of the ghost penalties on every cut, but there the errors are larger on both meshes

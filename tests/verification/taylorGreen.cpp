@@ -104,8 +104,8 @@ TEST_CASE("Taylor-Green vortex")
             {"energy", decay.energy}});
     }
     table.print();
-    CHECK(table.lastOrder("u L2") > 1.9);
-    CHECK(table.lastOrder("u H1") > 0.95);
-    CHECK(table.lastOrder("p L2") > 1.5);
-    CHECK(table.lastOrder("energy") > 1.9);
+    CHECK(table.shownOrder("u L2") > 1.9);
+    CHECK(table.shownOrder("u H1") > 0.95);
+    CHECK(table.shownOrder("p L2") > 1.5);
+    CHECK(table.shownOrder("energy") > 1.9);
 }

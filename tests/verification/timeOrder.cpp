@@ -94,7 +94,7 @@ ErrorTable together(const char* title, int timeOrder)
     return table;
 }
 
-/// Of velocity and pressure: the last two steps and any two. Before the last two the period has only ten to twenty steps.
+/// Of velocity and pressure, between the last two steps and between any two neighbours: the longest steps are not yet small.
 void checkOrders(const ErrorTable& table, double last, double least)
 {
     for (const char* error : {"u L2", "p L2"})

@@ -48,7 +48,7 @@ TEST_CASE("a cylinder that drifts with the fluid, half out of the liquid, distur
     {
         const int n = dim == 2 ? 40 : 16;
         const double radius = 0.13, speed = 1, dt = 0.3/n;
-        TransportScene scene(MPI_COMM_WORLD, dim, n, 0.35, [](const Point&) { return Point{1, 0, 0}; });
+        TransportScene scene(MPI_COMM_WORLD, dim, n, defaultWidth, [](const Point&) { return Point{1, 0, 0}; });
         scene.fill(belowLevel(0.52, dim));
         carryStartAlpha(scene);
         const std::vector<double> start = scene.alpha;
@@ -101,7 +101,7 @@ TEST_CASE("a fixed cylinder in a current: liquid passes it without leaving the b
         const double a = x[0] - 0.5, b = x[1] - 0.5, r2 = std::max(a*a + b*b, 0.5*radius*radius), q = radius*radius/(r2*r2);
         return Point{1 - q*(a*a - b*b), -2*q*a*b, 0};
     };
-    TransportScene scene(MPI_COMM_WORLD, 2, n, 0.35, field);
+    TransportScene scene(MPI_COMM_WORLD, 2, n, defaultWidth, field);
     scene.patches[1].velocity = BoundaryPatch::Velocity::Open;
     scene.values[0].alpha.assign(scene.values[0].alpha.size(), 1);
     const Cover cover = cutMesh(scene.mesh, scene.graph, scene.halo, cylinderAt(0.5, 0.5, radius));
@@ -127,7 +127,7 @@ TEST_CASE("values inside solids: the mean of the wet neighbours, the same on any
     for (const int dim : {2, 3})
     {
         const int n = dim == 2 ? 24 : 12;
-        TransportScene scene(MPI_COMM_WORLD, dim, n, 0.35, rotationField()), whole(MPI_COMM_SELF, dim, n, 0.35, rotationField());
+        TransportScene scene(MPI_COMM_WORLD, dim, n, defaultWidth, rotationField()), whole(MPI_COMM_SELF, dim, n, defaultWidth, rotationField());
         for (TransportScene* s : {&scene, &whole})
         {
             const Cover cover = cutMesh(s->mesh, s->graph, s->halo, cylinderAt(0.5, 0.5, 0.3));
