@@ -184,7 +184,7 @@ PAIRS = [
     Pair("keptHierarchy", "steady operators: preconditioner kept", "3D box, one fluid, a block fills a third", "a multigrid hierarchy a step", _block,
          ("flow solve",), "-pressure_max_age 0", fields=("U", "p_rgh"), check=25, tolerance=1e-11, reason=SOLVES),
     Pair("keptHierarchyDam", "the same, operators that change", "dam break 3D", "a multigrid hierarchy a step", _dam3D(), ("flow solve",),
-         "-pressure_max_age 0", check=2, tolerance=1e-11, reason=SOLVES + "; the gas of the dam break amplifies it"),
+         "-pressure_max_age 0", check=2, tolerance=1e-11, reason=SOLVES + "; the dam break amplifies it"),
 ]
 
 NOTES = """* One fluid: the other scene is filled by the liquid of two fluids, so that the rule that leaves out the phase field far from the surface acts in both.
