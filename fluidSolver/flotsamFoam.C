@@ -13,6 +13,7 @@
 #include "foam/fieldIO.H"
 #include "foam/writeTimes.H"
 
+#include "algebra/needlessWork.hpp"
 #include "io/stopSignal.hpp"
 
 #include "argList.H"
@@ -89,6 +90,7 @@ DemSetup makeDemSetup(const BodiesInput& input, double timeStep)
     setup.laws = input.laws;
     setup.box = input.box;
     setup.timeStep = timeStep;
+    setup.hasContactStepsOnly = doesNeedless("demSteps");
     return setup;
 }
 

@@ -15,5 +15,6 @@ add_executable(transportTable ${PROJECT_SOURCE_DIR}/benchmarks/transport/transpo
 target_link_libraries(transportTable PRIVATE flotsam_transport_support)
 flotsam_test(volumeFlux unit SOURCES unit/volumeFlux.cpp LIBRARIES flotsam_transport_support)
 flotsam_test(dualCellTransport unit SOURCES unit/dualCellTransport.cpp LIBRARIES flotsam_transport_support RANKS 1 2 3)
+flotsam_test(needlessWork unit SOURCES unit/needlessWork.cpp LIBRARIES flotsam_transport_support RANKS 1 2)
 flotsam_test(transportSolids verification SOURCES verification/transportSolids.cpp LIBRARIES flotsam_transport_support RANKS 1 2)
 flotsam_test(phaseFieldSupg verification SOURCES verification/phaseFieldSupg.cpp LIBRARIES flotsam_transport_support RANKS 1 2)

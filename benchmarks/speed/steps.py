@@ -24,7 +24,7 @@ def write(folder, stepSize, count, start=0, writeLast=False):
     """system/steps, which controlDict includes last. writeLast: fields of the last step, ascii."""
     with open(os.path.join(folder, "system", "steps"), "w", encoding="utf-8") as out:
         out.write(f"adjustTimeStep no; deltaT {stepSize:.10g}; endTime {start + count * stepSize:.10g}; "
-                  f"writeControl timeStep; writeInterval {count if writeLast else 1000000}; writeFormat ascii; writePrecision 10;\n")
+                  f"writeControl timeStep; writeInterval {count if writeLast else 1000000}; writeFormat ascii; writePrecision 16;\n")
 
 
 def do(folder, *command):

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/coupling/coupledStep.hpp"
 
+#include "algebra/needlessWork.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -28,7 +30,7 @@ CouplingControls couplingControls(const FluidProperties& fluid, const NumericsCo
 CoupledStep::CoupledStep(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& fluid, const NumericsControls& controls,
     const std::vector<BoundaryPatch>& patches, Scene scene, const DemSetup* dem, PhaseTimers& timers)
 :   mesh_(mesh), halo_(halo), controls_(controls), timers_(timers), fluid_(mesh, halo, fluid, controls, patches),
-    scene_(std::move(scene))
+    scene_(std::move(scene)), cutsNeedlessly_(doesNeedless("cut")), assemblesNeedlessly_(doesNeedless("assembly"))
 {
     if (!scene_.isEmpty()) builder_ = std::make_unique<CoverBuilder>(mesh, fluid_.graph(), halo);
     else fluid_.forgetFaces();
@@ -82,7 +84,7 @@ StepResult CoupledStep::step(double dt)
     }
     if (scene_.moves()) fluid_.keepGeometry();
     scene_.place(time + dt, coupling_.get());
-    if (scene_.moves()) cut(false);
+    if (scene_.moves() || cutsNeedlessly_) cut(false);
     try
     {
         PhaseTimer t(timers_, Phase::PhaseField);
@@ -180,6 +182,11 @@ void CoupledStep::solveWithContact(StepResult& result)
     for (bool isNewLoad = true;;)
     {
         const double enough = isNewLoad && result.solves < trials ? enoughOfTrial : 0;
+        if (assemblesNeedlessly_ && isNewLoad && result.solves > 0)
+        {
+            PhaseTimer t(timers_, Phase::FlowAssembly);
+            fluid_.assembleAgain();
+        }
         const SolveReport report = solveFlow(result, enough);
         result.solves += isNewLoad;
         if (!result.failure.empty() || !coupling_) return;

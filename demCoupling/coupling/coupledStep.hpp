@@ -97,6 +97,7 @@ private:
     std::vector<double> wet_;
     double contactChange_ = 0;  // residual over the right-hand side that the first new contact load of the last step left; 0: there was none
     int contactRepeats_ = 0;    // new contact loads in the last step
+    const bool cutsNeedlessly_, assemblesNeedlessly_;   // see algebra/needlessWork.hpp
 };
 
 } // namespace flotsam

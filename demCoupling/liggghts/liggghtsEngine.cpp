@@ -213,6 +213,8 @@ void LiggghtsEngine::advance(double duration, double largestStep)
         throw DemError("advance: duration and largest step must be > 0");
     Implementation& d = *impl_;
     d.subSteps = 0;
+    if (d.setup.hasContactStepsOnly)
+        largestStep = d.timeStep;
     if (!d.model.near->isNew())
         rebuildNeighbours(d.model);
     d.model.tally->start();

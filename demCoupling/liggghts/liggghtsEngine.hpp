@@ -21,6 +21,7 @@ struct DemSetup
     std::vector<ContactLaw> laws;       ///< nMaterials*nMaterials, symmetric
     std::array<Vec3, 2> box;            ///< region that holds everything; grows if a body leaves it
     double timeStep = 0;                ///< contact sub-step [s]; 0: chosen from stiffness, damping, masses (docs/contact.md)
+    bool hasContactStepsOnly = false;   ///< contact sub-steps in free flight as well
     double skin = 0;                    ///< neighbour list skin [m]; 0: chosen from the radii of the spheres (docs/contact.md)
 };
 

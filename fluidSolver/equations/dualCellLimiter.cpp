@@ -32,7 +32,7 @@ void DualCellTransport::findActive(const Part& part)
         for (std::size_t k = levelStart_[l]; k < levelStart_[l + 1]; ++k)
         {
             const int e = stored_[byLevel_[k]];
-            if (isBulk<dim>(e))
+            if (std::size_t(byLevel_[k]) < nNeeded_ && isBulk<dim>(e))
             {
                 continue;
             }
@@ -66,7 +66,7 @@ void DualCellTransport::findAround(const Part& part)
     {
         for (int e = 0; e < mesh_.nElements; ++e)
         {
-            if (!isBulk<dim>(e))
+            if (isEverywhere_ || !isBulk<dim>(e))
             {
                 aroundActive_.push_back(e);
             }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "equations/dualCellTransport.hpp"
 
+#include "algebra/needlessWork.hpp"
 #include "equations/initialProfile.hpp"
 
 #include <algorithm>
@@ -27,7 +28,7 @@ DualCellTransport::DualCellTransport(const SimplexMesh& mesh, const NodeGraph& g
       inflow_(mesh.nNodes), outflow_(mesh.nNodes), rest_(mesh.nNodes), level_(mesh.nNodes), storedAt_(mesh.nElements, -1), liquid_(mesh.nNodes),
       volume_(mesh.nNodes), upwind_(mesh.nNodes), isMeeting_(mesh.nNodes, 0), firstLiquid_(mesh.nNodes),
       firstVolume_(mesh.nNodes), isActiveNode_(mesh.nNodes, 0), isListed_(mesh.nElements, 0), limiter_(2*std::size_t(mesh.nNodes)),
-      isOpen_(mesh.nNodes, 0)
+      isOpen_(mesh.nNodes, 0), isEverywhere_(doesNeedless("transport"))
 {
     cells_.complete(halo);
 }

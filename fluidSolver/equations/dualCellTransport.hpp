@@ -98,6 +98,7 @@ private:
     template<int dim> void storeSteppedBulk(const Arguments& in);
     void sortElements();
     void findMeetingNodes();
+    void storeNeedless();
     void findPhases(const std::vector<double>& alpha, int begin, int end);
     int elementLevel(int e) const;
     template<int dim> bool isBulk(int e) const;
@@ -173,6 +174,9 @@ private:
     std::vector<double> limiter_;           // per node: {increase, decrease}: first sums, then factors
     std::vector<int> openNodes_;            // nodes whose alpha may change
     std::vector<char> isOpen_;
+
+    const bool isEverywhere_;               // see algebra/needlessWork.hpp
+    std::size_t nNeeded_ = 0;               // of stored_, the first ones; the others because of it alone
 };
 
 /// alpha does not vary in the element.

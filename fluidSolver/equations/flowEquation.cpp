@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "equations/flowEquation.hpp"
 
+#include "algebra/needlessWork.hpp"
 #include "equations/elementAssembly.hpp"
 #include "equations/elementLanes.hpp"
 #include "equations/gasRegion.hpp"
@@ -22,7 +23,7 @@ constexpr double lightDensity = 0.1;  // of a light node over the mean of an ele
 FlowEquation::FlowEquation(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const FluidProperties& fluid,
     const NumericsControls& controls, const std::vector<BoundaryPatch>& patches)
 :   mesh_(mesh), graph_(graph), halo_(halo), fluid_(fluid), controls_(controls), patches_(patches),
-    viscousForce_(mesh, halo)
+    viscousForce_(mesh, halo), hasInsides_(doesNeedless("insides"))
 {
     const int dim = mesh.dim;
     system_.dim = dim;
@@ -109,6 +110,42 @@ void FlowEquation::assemble(const FlowStepData& step)
         assembleGhosts<3>();
     }
     findPressureLevels();
+    if (!hasInsides_ || !step_.cover) return;
+    if (mesh_.dim == 2) assembleInsides<2>(); else assembleInsides<3>();
+}
+
+/// Needless: elements inside solids as if they were fluid, in the rows of nodes inside alone. Rows of nodes outside have no entries there: the flow does not change.
+template<int D>
+void FlowEquation::assembleInsides()
+{
+    constexpr int N = D + 1;
+    const std::vector<char>& isOutside = step_.cover->isActiveNode;
+    FlowStepData step = step_;
+    step.cover = nullptr;
+    step.transport = nullptr;
+    ElementData<D> data;
+    for (int e = 0; e < mesh_.nInnerElements; ++e)
+    {
+        if (step_.cover->state[e] != ElementState::Solid) continue;
+        loadElementData<D>(e, mesh_, step, fluid_, controls_, nodal_, data);
+        const int* nodes = &mesh_.elements[std::size_t(e)*N];
+        const ElementHistory<D, double> history(data);
+        int slots[N*N], slot[N*N][1];
+        graph_.slots<N>(e, nodes, mesh_.nOwned, slots);
+        for (int a = 0; a < N; ++a)
+        {
+            const int i = nodes[a];
+            for (int b = 0; b < N; ++b) slot[a*N + b][0] = isOutside[i] ? -1 : slots[a*N + b];
+            if (isOutside[i] || i >= mesh_.nOwned) continue;
+            const NodeSource<D, double> source(data, a, history);
+            for (int d = 0; d < D; ++d) system_.rhs[std::size_t(i)*N + d] += source.momentum[d];
+            system_.rhs[std::size_t(i)*N + D] += source.continuity;
+            system_.dualVolume[i] += data.first[a];
+            system_.pressureMass[i] += data.first[a]/(data.mu + data.tauCont);
+        }
+        addElement(data, slot, system_);
+    }
+    system_.isActive.assign(mesh_.nNodes, 1);
 }
 
 /// Zeroes row i of the matrix unless that has been done. Just before its first use: the row then comes into the cache once instead of twice.

@@ -32,6 +32,7 @@ public:
 
     /// Fills system(): matrix, right-hand side, ghost faces, solids (inertia and rhs of free solids: setFreeBodies()).
     void assemble(const FlowStepData& step);
+    void assembleAgain() { assemble(FlowStepData(step_)); } ///< needless: the same
 
     /// Inertia and right-hand side of the free solids, by the change of velocity within the step, so that a DEM step with the same
     /// constant load ends at the solved velocity. bodies: one per solid of kind Free, in the order of the solids.
@@ -66,6 +67,7 @@ private:
     template<int D> void assembleElements();
     template<int D> void assembleElementsWide();
     template<int D, class Real> void assembleElementsIn();
+    template<int D> void assembleInsides();
     template<int D> void keepSweptMass();
     template<int D> void removeMassDefect();
     template<int D> void addVelocity(int slot, double value);
@@ -155,6 +157,7 @@ private:
     double gasLevel_ = 0;                       // of the gas at rest's pressure [Pa]
     std::vector<char> isSlipEdge_;              // nNodes: on a re-entrant edge of slip patches, see SlipNormals
     std::size_t nPatchConstraints_ = 0;         // of the system's, the first ones; then those of shut pockets
+    const bool hasInsides_;                     // see algebra/needlessWork.hpp
     std::vector<NodeConstraint> constraints_;   // all local nodes; directions from the slip patches
 };
 

@@ -42,6 +42,7 @@ public:
     void keepGeometry();
     TransportReport beginStep(double dt);
     void assemble();
+    void assembleAgain() { equation_.assembleAgain(); }     ///< the same system
     SolveReport solve(const std::vector<FreeBody>& bodies, double enough = 0);  ///< enough: see FlowLinearSolver::solve()
     void endStep();
     void rejectStep();

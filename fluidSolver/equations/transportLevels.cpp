@@ -244,9 +244,21 @@ void DualCellTransport::findLevels(const Arguments& in)
     {
         storeSteppedBulk<dim>(in);
     }
+    nNeeded_ = stored_.size();
+    if (isEverywhere_) storeNeedless();
     liquidFlux_.resize(flux_.size());
     sortElements();
     findMeetingNodes();
+}
+
+/// All other elements, without fluxes: these are in rest_.
+void DualCellTransport::storeNeedless()
+{
+    for (int e = 0; e < mesh_.nInnerElements; ++e)
+    {
+        if (storedAt_[e] < 0) stored_.push_back(e);
+    }
+    flux_.resize(stored_.size()*(mesh_.dim == 2 ? CornerPairs<2>::count : CornerPairs<3>::count), 0.);
 }
 
 DualCellTransport::Part DualCellTransport::partAt(int index) const

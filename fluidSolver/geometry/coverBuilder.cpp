@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/coverBuilder.hpp"
 
+#include "algebra/needlessWork.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -61,7 +63,7 @@ CoverBuilder::CoverBuilder(const SimplexMesh& mesh, const NodeGraph& graph, cons
     : mesh_(mesh), graph_(graph), halo_(halo), bins_(mesh, nodeReach(mesh, halo)), film_(mesh, halo), snap_(nodeSnap(mesh, halo)),
       nodeFaces_(mesh, film_, snap_), elementFace_(std::size_t(mesh.nElements) * (mesh.dim + 1), -1), isBoundaryNode_(mesh.nNodes, 0),
       elementMark_(mesh.nElements, 0), nodeMark_(mesh.nNodes, 0), face_(mesh.nNodes, 0), aloneDistance_(mesh.nNodes, farDistance),
-      aloneFace_(mesh.nNodes, 0), isSharedNode_(mesh.nNodes, 0)
+      aloneFace_(mesh.nNodes, 0), isSharedNode_(mesh.nNodes, 0), isNeedless_(doesNeedless("cut"))
 {
     for (std::size_t f = 0; f < graph.faces.size(); ++f)
         for (int side = 0; side < 2; ++side)
@@ -86,18 +88,16 @@ CoverBuilder::CoverBuilder(const SimplexMesh& mesh, const NodeGraph& graph, cons
 
 const Cover& CoverBuilder::build(const std::vector<Solid>& solids)
 {
-    if (!sameFixedSolids(solids)) cutFixedSolids(solids);
+    if (isNeedless_ || !sameFixedSolids(solids)) cutFixedSolids(solids);
     sampleMovingSolids(solids);
     return cutMovingSolids(solids);
 }
 
 const Cover& CoverBuilder::buildExactVolume(std::vector<Solid>& solids)
 {
-    if (!sameFixedSolids(solids))
-    {
-        correctFixedOffsets(solids);
-        cutFixedSolids(solids);
-    }
+    const bool isNew = !sameFixedSolids(solids);
+    if (isNew) correctFixedOffsets(solids);
+    if (isNew || isNeedless_) cutFixedSolids(solids);
     sampleMovingSolids(solids);
     correctOffsets(solids);
     return cutMovingSolids(solids);
@@ -128,12 +128,13 @@ void CoverBuilder::sample(const Solid& solid, std::vector<Sample>& samples) cons
     const Vec3 position = solid.pose.position;
     const double outward = solid.offsetBound();
     const bool sharp = isSharp(solid);
-    bins_.forEachNear(solid.spaceBounds(), [&](int node, const Vec3& x)
+    const Vec3 far = Vec3::Constant(farDistance);
+    bins_.forEachNear(isNeedless_ ? std::array<Vec3, 2>{-far, far} : solid.spaceBounds(), [&](int node, const Vec3& x)
     {
         const Vec3 y = toBody * (x - position);
         const double outside = (lower - y).cwiseMax(y - upper).cwiseMax(0.0).norm();
         const double limit = bins_.reach(node) + outward;
-        if (outside > limit) return;
+        if (outside > limit && !isNeedless_) return;
         double faces[maxFaces];
         const int nFaces = sharp ? shape.faceDistances(y, faces) : 0;
         const double* nearest = std::max_element(faces, faces + nFaces);
@@ -318,12 +319,20 @@ const Cover& CoverBuilder::cutMovingSolids(const std::vector<Solid>& solids)
         cutElement(cover_, solids, e);
         account(cover_, e, 1, totals);
     }
+    if (isNeedless_) cutFarElements(solids);
     findActiveNodes(cover_, touchedElements_);
     shareActiveNodes(cover_);
     findGhostFaces(cover_);
     findCovered(cover_, solids);
     sumTotals(cover_, std::move(totals), static_cast<int>(solids.size()));
     return cover_;
+}
+
+/// Needless: no moving solid is near them, and they were cut with the fixed ones.
+void CoverBuilder::cutFarElements(const std::vector<Solid>& solids)
+{
+    for (int e = 0; e < mesh_.nElements; ++e)
+        if (elementMark_[e] != mark_ && fixedCover_.state[e] != ElementState::Cut) cutElement(cover_, solids, e);
 }
 
 void CoverBuilder::copyFixedCuts()

@@ -113,6 +113,7 @@ private:
     bool isNear(const std::vector<double>& distance, int element) const;
     bool isAtEdge(const std::vector<int>& face, int element) const;
     void restoreFixedCover();
+    void cutFarElements(const std::vector<Solid>& solids);
     void findClosedFaces(const Cover& cover);
     void addClosedFaces();
     void addElementsOf(const Cover& cover, const std::vector<Solid>& solids, int solid, const std::vector<Sample>& samples);
@@ -172,6 +173,7 @@ private:
     std::vector<int> coveredVolumeOf_;  // nElements, empty at first: position in cover_.coveredVolumes, -1 outside of findCovered()
     std::vector<int> sharedNodes_;      // of elements with nodes of several solids
     std::vector<char> isSharedNode_;    // nNodes
+    const bool isNeedless_;             // see algebra/needlessWork.hpp
 };
 
 /// Elements without mark that a solid at `distance` from the node may cut: all of a node inside. Of a node outside those where an edge of the solid may pass
