@@ -4,7 +4,6 @@
 #include "algebra/needlessWork.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace flotsam
 {
