@@ -2,9 +2,8 @@
 /// A tank in 2D with bars over water, for tests of the coupled step.
 #pragma once
 
-#include "demCoupling/coupling/coupledStep.hpp"
 #include "geometry/primitives.hpp"
-#include "support/flowCases.hpp"
+#include "support/coupledRig.hpp"
 
 #include <cmath>
 #include <memory>
@@ -18,18 +17,10 @@ constexpr double g = 9.81, side = 0.1, level = 0.5;
 const Vec3 gravity(0, -g, 0);
 
 /// 1 m x 1.2 m, elements of 0.04 m, half full, open at the top.
-struct Tank
+struct Tank : CoupledRig
 {
-    SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, 2, {25, 30, 1}, {0, 0, 0}, {1, 1.2, 1});
-    Halo halo{mesh, MPI_COMM_WORLD};
-    FluidProperties fluid;
-    NumericsControls controls;
-    std::vector<BoundaryPatch> patches;
-    PhaseTimers timers;
-
-    Tank()
+    Tank() : CoupledRig(makeBoxMesh(MPI_COMM_WORLD, 2, {25, 30, 1}, {0, 0, 0}, {1, 1.2, 1}))
     {
-        usePetsc();
         fluid.isTwoPhase = true;
         fluid.rhoLiquid = 1000;
         fluid.muLiquid = 1e-3;

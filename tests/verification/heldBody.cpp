@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Flow and contact together: a light bar that a current presses against a stop feels, from the stop, the drag that the same bar
 /// feels when it is fixed; without contact the DEM ends at the velocity that the linear system gave.
-#include "demCoupling/coupling/coupledStep.hpp"
-#include "support/flowCases.hpp"
+#include "support/coupledRig.hpp"
 #include "support/near.hpp"
 
 #include <doctest/doctest.h>
@@ -17,19 +16,10 @@ namespace
 
 constexpr double side = 0.2, speed = 1.0;
 
-struct Channel
+struct Channel : CoupledRig
 {
-    SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, 2, {48, 24, 1}, {0, 0, 0}, {2, 1, 1});
-    Halo halo{mesh, MPI_COMM_WORLD};
-    FluidProperties fluid;
-    NumericsControls controls;
-    std::vector<BoundaryPatch> patches;
-    PhaseTimers timers;
-
-    Channel()
+    Channel() : CoupledRig(makeBoxMesh(MPI_COMM_WORLD, 2, {48, 24, 1}, {0, 0, 0}, {2, 1, 1}))
     {
-        usePetsc();
-        fluid.isTwoPhase = false;
         fluid.rhoLiquid = 1000;
         fluid.muLiquid = 10; // Re 20: a steady flow
         controls.tolerance = 1e-8;

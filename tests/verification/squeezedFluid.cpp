@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Solids that squeeze fluid out of less than an element: at any step the system has a solution, and what is no number is no step.
-#include "demCoupling/coupling/coupledStep.hpp"
-#include "support/flowCases.hpp"
+#include "support/coupledRig.hpp"
 #include "support/near.hpp"
 
 #include <doctest/doctest.h>
@@ -17,19 +16,10 @@ namespace
 {
 
 /// A plate 0.33 m wide that sinks onto and through the floor of a tank of 20 x 20 elements.
-struct Press
+struct Press : CoupledRig
 {
-    SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, 2, {20, 20, 1}, {0, 0, 0}, {1, 1, 1});
-    Halo halo{mesh, MPI_COMM_WORLD};
-    FluidProperties fluid;
-    NumericsControls controls;
-    std::vector<BoundaryPatch> patches;
-    PhaseTimers timers;
-
-    Press()
+    Press() : CoupledRig(makeBoxMesh(MPI_COMM_WORLD, 2, {20, 20, 1}, {0, 0, 0}, {1, 1, 1}))
     {
-        usePetsc();
-        fluid.isTwoPhase = false;
         for (int p : {0, 1, 2}) patches.push_back(makePatch(mesh, p, BoundaryPatch::Velocity::Slip));
         patches.push_back(makePatch(mesh, 3, BoundaryPatch::Velocity::Open));
     }
