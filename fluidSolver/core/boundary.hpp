@@ -27,7 +27,9 @@ struct BoundaryState
 
 struct BoundaryPatch
 {
-    enum class Velocity { Fixed, Slip, Open };          ///< Open: no constraint on the velocity
+    /// Slip, NoSlip: walls at rest, their normal velocity prescribed at the nodes; NoSlip: the tangential one held weakly on the faces.
+    /// Open: no constraint on the velocity.
+    enum class Velocity { Fixed, Slip, NoSlip, Open };
     /// Natural with Open is interFoam's zeroGradient/zeroGradient outlet: the pressure there is the unknown's own value, the
     /// boundary term int p v.n stays in the equations (without it the outlet would silently be held at p = 0).
     /// Total: p = p0 - rho |u|^2/2 where the fluid enters.
@@ -35,11 +37,13 @@ struct BoundaryPatch
     enum class Phase { Natural, Inflow };               ///< Inflow: PatchValues::alpha where the fluid enters, else natural
 
     std::string name;
-    bool isNoSlipWall = false;      ///< velocity zero; wins over other patches at shared nodes (flow-rate inlets rely on it)
+    bool isNoSlipWall = false;      ///< of kind Fixed at zero or NoSlip; wins over other patches at shared nodes (flow-rate inlets rely on it)
     int meshPatch = -1;             ///< index into SimplexMesh::patches
     Velocity velocity = Velocity::Fixed;
     Pressure pressure = Pressure::Natural;
     Phase phase = Phase::Natural;
+    bool isWall() const { return velocity == Velocity::Slip || velocity == Velocity::NoSlip; }
+
     std::vector<int> nodes;         ///< local nodes of the patch (owned and halo), ascending
 
     /// Fills the values for a time. Collective (may sum over ranks).

@@ -33,6 +33,7 @@ struct NumericsControls
     // embedded boundary
     bool nitsche = true;            ///< false: the paper's pure penalty
     double nitscheGamma = 4;        ///< non-symmetric Nitsche: coefficient of mu/h
+    double wallGamma = 16;          ///< the same on no-slip patches; 0: their velocity is prescribed at the nodes
     double penalty = 1e3;           ///< pure penalty pbar [Pa s/m] (paper eq 5), used when nitsche is false
     double ghostVelocity = 0.05, ghostConvection = 0.01, ghostPressure = 0.05;
     // phase field

@@ -25,7 +25,7 @@ void FlowEquation::buildConstraints()
     {
         if (p.velocity == BoundaryPatch::Velocity::Fixed) for (int i : p.nodes) isFixed[i] = 1;
         if (p.pressure != BoundaryPatch::Pressure::Natural) for (int i : p.nodes) isPressureFixed[i] = 1;
-        if (p.velocity != BoundaryPatch::Velocity::Slip) continue;
+        if (!p.isWall()) continue;
         const MeshPatch& patch = mesh_.patches[p.meshPatch];
         for (std::size_t f = 0; f < patch.faceElement.size(); ++f)
         {
@@ -44,6 +44,9 @@ void FlowEquation::buildConstraints()
     }
     for (int i = 0; i < mesh_.nNodes; ++i)
         if (isFixed[i]) constraints_.push_back(wholeVelocity(i, dim));
+    for (const BoundaryPatch& p : patches_)
+        for (int i : p.nodes)
+            if (p.isNoSlipWall && isFixed[i]) restingNodes_.push_back(i);
     std::vector<int> isEdge(mesh_.nNodes, 0);
     for (const auto& [node, normals] : slip)
     {
@@ -146,17 +149,16 @@ void FlowEquation::applyConstraints(const std::vector<PatchValues>& values, std:
             for (int d = 0; d < dim; ++d) u[d] -= along*c.direction[k][d];
         }
     }
-    // walls win over inflow where patches meet: zero velocity is written last
-    for (int pass = 0; pass < 2; ++pass)
-        for (std::size_t p = 0; p < patches_.size(); ++p)
-        {
-            const BoundaryPatch& patch = patches_[p];
-            if (patch.velocity != BoundaryPatch::Velocity::Fixed) continue;
-            if (patch.isNoSlipWall != (pass == 1)) continue;
-            for (std::size_t k = 0; k < patch.nodes.size(); ++k)
-                for (int d = 0; d < dim; ++d)
-                    x[std::size_t(patch.nodes[k])*B + d] = values[p].velocity[k*dim + d];
-        }
+    for (std::size_t p = 0; p < patches_.size(); ++p)
+    {
+        const BoundaryPatch& patch = patches_[p];
+        if (patch.velocity != BoundaryPatch::Velocity::Fixed) continue;
+        for (std::size_t k = 0; k < patch.nodes.size(); ++k)
+            for (int d = 0; d < dim; ++d)
+                x[std::size_t(patch.nodes[k])*B + d] = values[p].velocity[k*dim + d];
+    }
+    for (int i : restingNodes_)
+        for (int d = 0; d < dim; ++d) x[std::size_t(i)*B + d] = 0;
     for (std::size_t p = 0; p < patches_.size(); ++p)
     {
         if (patches_[p].pressure == BoundaryPatch::Pressure::Natural) continue;

@@ -87,7 +87,7 @@ void FlowEquation::assemble(const FlowStepData& step)
     {
         assembleElements<2>();
         assembleOpenBoundaries<2>();
-        assembleSlipEdges<2>();
+        assemblePatchWalls<2>();
         assembleGasEdge<2>();
         assembleFilms<2>();
         assembleWalls<2>();
@@ -100,7 +100,7 @@ void FlowEquation::assemble(const FlowStepData& step)
     {
         assembleElements<3>();
         assembleOpenBoundaries<3>();
-        assembleSlipEdges<3>();
+        assemblePatchWalls<3>();
         assembleGasEdge<3>();
         assembleFilms<3>();
         assembleWalls<3>();

@@ -97,8 +97,8 @@ private:
     template<int D> void addFilmFace(const MeshPatch& patch, std::size_t f);
     template<int D> void addFilm(int a, int b, double conductance, const double* force);
     template<int D> void assembleOpenBoundaries();
-    template<int D> void assembleSlipEdges();
-    template<int D> void addSlipFace(const MeshPatch& faces, std::size_t f);
+    template<int D> void assemblePatchWalls();
+    template<int D> void addWallFace(const MeshPatch& faces, std::size_t f, bool isSlip, bool hasEdge);
     template<int D> void addOpenFace(const int* nodes, const double* v, const double* first, const double* second, const double* pressure);
     template<int D> void assembleGasEdge();
     void fixGasEdge();
@@ -155,10 +155,11 @@ private:
     std::vector<char> isPressureWeak_;          // nNodes: of these, where liquid enters: see findWeakPressures()
     std::vector<double> entering_;              // nNodes, work of findWeakPressures(): volume flux into the mesh [m^dim/s]
     double gasLevel_ = 0;                       // of the gas at rest's pressure [Pa]
-    std::vector<char> isSlipEdge_;              // nNodes: on a re-entrant edge of slip patches, see SlipNormals
+    std::vector<char> isSlipEdge_;              // nNodes: on a re-entrant edge of walls, see SlipNormals
+    std::vector<int> restingNodes_;             // of no-slip walls that share them with a patch of prescribed velocity: the wall wins
     std::size_t nPatchConstraints_ = 0;         // of the system's, the first ones; then those of shut pockets
     const bool hasInsides_;                     // see algebra/needlessWork.hpp
-    std::vector<NodeConstraint> constraints_;   // all local nodes; directions from the slip patches
+    std::vector<NodeConstraint> constraints_;   // all local nodes; directions from the walls
 };
 
 } // namespace flotsam

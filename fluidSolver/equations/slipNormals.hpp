@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What the faces of slip patches prescribe at one node.
+/// What the faces of walls prescribe at one node.
 #pragma once
 
 #include "algebra/flowSystem.hpp"
@@ -12,7 +12,7 @@ namespace flotsam
 
 /// Walls are faces of nearly the same direction. Where two of them meet in a re-entrant edge (the fluid fills more than 180 degrees, as at the rim
 /// of a box that is left out of the mesh) their normals together would hold the whole velocity of the node, though fluid streams past the edge;
-/// no normal of its own is right there either. Such walls prescribe nothing at the node, FlowEquation::assembleSlipEdges() holds them weakly.
+/// no normal of its own is right there either. Such walls prescribe nothing at the node, FlowEquation::assemblePatchWalls() holds them weakly.
 class SlipNormals
 {
 public:

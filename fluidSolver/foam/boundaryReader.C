@@ -173,7 +173,7 @@ std::vector<BoundaryPatch> readBoundary(const Foam::polyMesh& mesh, const MeshAd
         out.name = patch.name();
         out.isNoSlipWall = isWallPatch[i];
         out.meshPatch = static_cast<int>(i);
-        out.velocity = u.kind;
+        out.velocity = isWallPatch[i] && controls.numerics.wallGamma > 0 ? BoundaryPatch::Velocity::NoSlip : u.kind;
         out.pressure = p.kind;
         out.phase = a.kind;
         out.nodes = sources[i].nodes->nodes;
@@ -186,10 +186,10 @@ std::vector<BoundaryPatch> readBoundary(const Foam::polyMesh& mesh, const MeshAd
 
 std::string describe(const BoundaryPatch& patch)
 {
-    static const char* velocity[] = {"prescribed", "slip", "open"};
+    static const char* velocity[] = {"prescribed", "slip", "no-slip", "open"};
     static const char* pressure[] = {"from the flow", "prescribed", "total pressure where fluid enters"};
     static const char* phase[] = {"from the flow", "prescribed where fluid enters"};
-    return text(patch.name, ": velocity ", patch.isNoSlipWall ? "no-slip" : velocity[static_cast<int>(patch.velocity)],
+    return text(patch.name, ": velocity ", patch.isNoSlipWall && patch.velocity == BoundaryPatch::Velocity::Fixed ? "no-slip, strongly" : velocity[static_cast<int>(patch.velocity)],
         ", pressure ", pressure[static_cast<int>(patch.pressure)], ", phase ", phase[static_cast<int>(patch.phase)]);
 }
 

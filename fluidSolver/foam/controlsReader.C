@@ -42,6 +42,7 @@ const std::vector<ControlEntry>& controlsTable()
         {"viscousResidual", &N::viscousResidual, anyValue, "on: viscous force in the residual of SUPG and PSPG; off: without"},
         {"nitsche", &N::nitsche, anyValue, "on: Nitsche condition on solids; off: pure penalty (entry penalty)"},
         {"nitscheGamma", &N::nitscheGamma, {0, 1e6}, "coefficient of mu/h of the Nitsche condition"},
+        {"wallGamma", &N::wallGamma, {0, 1e6}, "the same on no-slip patches (0: velocity prescribed at the nodes)"},
         {"penalty", &N::penalty, {0, 1e12, true}, "pure penalty coefficient [Pa s/m], used with nitsche off"},
         {"ghostVelocity", &N::ghostVelocity, {0, 100}, "ghost penalty of the velocity, viscous scale"},
         {"ghostConvection", &N::ghostConvection, {0, 100}, "ghost penalty of the velocity, convective scale"},

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Slip patches at re-entrant edges, whose nodes have no normal: the wall holds the fluid weakly there.
+/// What walls of the mesh hold weakly: no-slip patches the tangential velocity, patches at re-entrant edges, whose nodes have no normal, the normal one too.
+/// Zero velocity at the nodes would make the layer at an unresolved wall one element thick, which holds a front back that runs along it; held weakly, the
+/// fluid there slips by what its own shear allows and sticks where the layer is resolved (Bazilevs & Hughes 2007, doi 10.1016/j.compfluid.2005.07.012).
+///
 /// A stream leaves a sharp edge along the wall that it comes along (Kutta's condition): at the edge the wall that the fluid runs into holds it, the one that it
 /// comes away from does not. Were both to hold it alike, a jet would cling to the wall behind the edge.
 #include "core/patchFaces.hpp"
@@ -26,26 +29,27 @@ double edgeHold(const ElementData<D>& e, double held, double h, double dt, doubl
 
 } // namespace
 
-/// The terms of a slip wall (wallTerms.hpp) on every face that has a node of a re-entrant edge. At the face's other nodes the normal velocity is prescribed
-/// and these terms vanish. No volume passes through the face: the continuity rows lose int q u.n.
+/// The terms of a wall (wallTerms.hpp) on every face of a no-slip patch, and of a slip patch where it has a node of a re-entrant edge. At other nodes the
+/// normal velocity is prescribed and its terms vanish. No volume passes through the face: the continuity rows lose int q u.n.
 template<int D>
-void FlowEquation::assembleSlipEdges()
+void FlowEquation::assemblePatchWalls()
 {
     for (const BoundaryPatch& patch : patches_)
     {
-        if (patch.velocity != BoundaryPatch::Velocity::Slip) continue;
+        if (!patch.isWall()) continue;
+        const bool isSlip = patch.velocity == BoundaryPatch::Velocity::Slip;
         const MeshPatch& faces = mesh_.patches[patch.meshPatch];
         for (std::size_t f = 0; f < faces.faceElement.size(); ++f)
         {
             const int* nodes = &faces.faceNodes[f*D];
             const bool hasEdge = std::any_of(nodes, nodes + D, [&](int i) { return isSlipEdge_[i]; });
-            if (hasEdge && faces.faceElement[f] < mesh_.nInnerElements) addSlipFace<D>(faces, f);
+            if ((!isSlip || hasEdge) && faces.faceElement[f] < mesh_.nInnerElements) addWallFace<D>(faces, f, isSlip, hasEdge);
         }
     }
 }
 
 template<int D>
-void FlowEquation::addSlipFace(const MeshPatch& faces, std::size_t f)
+void FlowEquation::addWallFace(const MeshPatch& faces, std::size_t f, bool isSlip, bool hasEdge)
 {
     constexpr int N = D + 1, B = D + 1;
     ElementData<D> data;
@@ -70,8 +74,9 @@ void FlowEquation::addSlipFace(const MeshPatch& faces, std::size_t f)
         first[corner[k]] = area*moments.first[k];
         for (int l = 0; l < D; ++l) second[corner[k]*N + corner[l]] = area*moments.second[k*D + l];
     }
-    WallCoefficients c = nitscheCoefficients(data, true, controls_.nitscheGamma, mesh_.h[e], step_.time.dt, 0);   // no volume passes: nothing flows in
-    c.normal = edgeHold(data, c.normal, mesh_.h[e], step_.time.dt, outflow);
+    const double height = D*mesh_.volume[e]/area, dt = step_.time.dt;   // of the element over the face: of a layer of stretched elements, not their mean size
+    WallCoefficients c = nitscheCoefficients(data, isSlip, isSlip ? controls_.nitscheGamma : controls_.wallGamma, isSlip ? mesh_.h[e] : height, dt, 0); // no volume passes: nothing flows in
+    c.normal = hasEdge ? edgeHold(data, c.normal, mesh_.h[e], dt, outflow) : 0;
     const WallTerms<D> terms(c, normal, data.gradN);
     double m[B*B];
     for (int a = 0; a < N; ++a)
@@ -85,7 +90,7 @@ void FlowEquation::addSlipFace(const MeshPatch& faces, std::size_t f)
     }
 }
 
-template void FlowEquation::assembleSlipEdges<2>();
-template void FlowEquation::assembleSlipEdges<3>();
+template void FlowEquation::assemblePatchWalls<2>();
+template void FlowEquation::assemblePatchWalls<3>();
 
 } // namespace flotsam
