@@ -3,12 +3,15 @@ flotsam_test(flowAtRest verification SOURCES verification/flowAtRest.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(tankAtRest verification SOURCES verification/tankAtRest.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
+flotsam_test(patchWalls verification SOURCES verification/patchWalls.cpp
+  LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(slipEdge verification SOURCES verification/slipEdge.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(liquidShares unit SOURCES unit/liquidShares.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(viscousForce unit SOURCES unit/viscousForce.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(openBoundary unit SOURCES unit/openBoundary.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(profileKeeping unit SOURCES unit/profileKeeping.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
+flotsam_test(wallLaw unit SOURCES unit/wallLaw.cpp LIBRARIES flotsam_equations flotsam_test_support)
 flotsam_test(slipNormals unit SOURCES unit/slipNormals.cpp LIBRARIES flotsam_equations)
 flotsam_test(nodeInertia unit SOURCES unit/nodeInertia.cpp LIBRARIES flotsam_transport_support)
 flotsam_test(elementLanes unit SOURCES unit/elementLanes.cpp LIBRARIES flotsam_transport_support)

@@ -9,6 +9,7 @@
 #include "equations/elementLoader.hpp"
 #include "equations/faceMoments.hpp"
 #include "equations/flowEquation.hpp"
+#include "equations/wallLaw.hpp"
 #include "equations/wallTerms.hpp"
 
 #include <cmath>
@@ -28,6 +29,21 @@ double edgeHold(const ElementData<D>& e, double held, double h, double dt, doubl
 }
 
 } // namespace
+
+/// Pa s/m, factor of the tangential velocities' product on a no-slip patch. speed: along the wall, mean over the face [m/s]; height: of the element over it [m].
+template<int D>
+double tangentialHold(const ElementData<D>& e, const NumericsControls& controls, double speed, double height)
+{
+    const double reynolds = e.rho*speed*height/e.mu;
+    const double gamma = controls.nitscheGamma + std::max(0.0, controls.wallGamma - controls.nitscheGamma)/(1 + reynolds/20);
+    double hold = gamma*e.mu/height;
+    if (controls.wallLaw && speed > 0)
+    {
+        const double u = velocityOverFriction(reynolds/2, e.rho*speed*controls.wallRoughness/e.mu);
+        hold = std::max(hold, e.rho*speed/(u*u));
+    }
+    return hold;
+}
 
 /// The terms of a wall (wallTerms.hpp) on every face of a no-slip patch, and of a slip patch where it has a node of a re-entrant edge. At other nodes the
 /// normal velocity is prescribed and its terms vanish. No volume passes through the face: the continuity rows lose int q u.n.
@@ -56,7 +72,7 @@ void FlowEquation::addWallFace(const MeshPatch& faces, std::size_t f, bool isSli
     const int e = faces.faceElement[f];
     if (!loadElement<D>(e, data)) return;
     const int* nodes = &mesh_.elements[std::size_t(e)*N];
-    double normal[3], area = 0, outflow = 0;
+    double normal[3], mean[D] = {}, area = 0, outflow = 0;
     outwardVector(mesh_, faces, f, normal);
     for (int d = 0; d < D; ++d) area += normal[d]*normal[d];
     area = std::sqrt(area);
@@ -66,8 +82,9 @@ void FlowEquation::addWallFace(const MeshPatch& faces, std::size_t f, bool isSli
     for (int k = 0; k < D; ++k)
     {
         corner[k] = int(std::find(nodes, nodes + N, faces.faceNodes[f*D + k]) - nodes);
-        for (int d = 0; d < D; ++d) outflow += moments.first[k]*nodal_.advection[std::size_t(nodes[corner[k]])*D + d]*normal[d];
+        for (int d = 0; d < D; ++d) mean[d] += moments.first[k]*nodal_.advection[std::size_t(nodes[corner[k]])*D + d];
     }
+    for (int d = 0; d < D; ++d) outflow += mean[d]*normal[d];
     double first[N] = {}, second[N*N] = {};
     for (int k = 0; k < D; ++k)
     {
@@ -75,7 +92,8 @@ void FlowEquation::addWallFace(const MeshPatch& faces, std::size_t f, bool isSli
         for (int l = 0; l < D; ++l) second[corner[k]*N + corner[l]] = area*moments.second[k*D + l];
     }
     const double height = D*mesh_.volume[e]/area, dt = step_.time.dt;   // of the element over the face: of a layer of stretched elements, not their mean size
-    WallCoefficients c = nitscheCoefficients(data, isSlip, isSlip ? controls_.nitscheGamma : controls_.wallGamma, isSlip ? mesh_.h[e] : height, dt, 0); // no volume passes: nothing flows in
+    WallCoefficients c = nitscheCoefficients(data, isSlip, controls_.nitscheGamma, mesh_.h[e], dt, 0);  // no volume passes: nothing flows in
+    if (!isSlip) c.tangential = tangentialHold(data, controls_, std::sqrt(std::max(0.0, squared<D>(mean) - outflow*outflow)), height);
     c.normal = hasEdge ? edgeHold(data, c.normal, mesh_.h[e], dt, outflow) : 0;
     const WallTerms<D> terms(c, normal, data.gradN);
     double m[B*B];

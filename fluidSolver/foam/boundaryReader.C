@@ -189,7 +189,7 @@ std::string describe(const BoundaryPatch& patch)
     static const char* velocity[] = {"prescribed", "slip", "no-slip", "open"};
     static const char* pressure[] = {"from the flow", "prescribed", "total pressure where fluid enters"};
     static const char* phase[] = {"from the flow", "prescribed where fluid enters"};
-    return text(patch.name, ": velocity ", patch.isNoSlipWall && patch.velocity == BoundaryPatch::Velocity::Fixed ? "no-slip, strongly" : velocity[static_cast<int>(patch.velocity)],
+    return text(patch.name, ": velocity ", patch.isNoSlipWall && patch.velocity == BoundaryPatch::Velocity::Fixed ? "no-slip at the nodes" : velocity[static_cast<int>(patch.velocity)],
         ", pressure ", pressure[static_cast<int>(patch.pressure)], ", phase ", phase[static_cast<int>(patch.phase)]);
 }
 

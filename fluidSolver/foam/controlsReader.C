@@ -42,7 +42,9 @@ const std::vector<ControlEntry>& controlsTable()
         {"viscousResidual", &N::viscousResidual, anyValue, "on: viscous force in the residual of SUPG and PSPG; off: without"},
         {"nitsche", &N::nitsche, anyValue, "on: Nitsche condition on solids; off: pure penalty (entry penalty)"},
         {"nitscheGamma", &N::nitscheGamma, {0, 1e6}, "coefficient of mu/h of the Nitsche condition"},
-        {"wallGamma", &N::wallGamma, {0, 1e6}, "the same on no-slip patches (0: velocity prescribed at the nodes)"},
+        {"wallGamma", &N::wallGamma, {0, 1e6}, "the same on no-slip patches where their layer is resolved (0: velocity prescribed at the nodes)"},
+        {"wallLaw", &N::wallLaw, anyValue, "on: at least the traction of a turbulent layer on no-slip patches; off: of the resolved flow alone"},
+        {"wallRoughness", &N::wallRoughness, {0, 1e3}, "sand roughness of no-slip patches in the wall law [m]"},
         {"penalty", &N::penalty, {0, 1e12, true}, "pure penalty coefficient [Pa s/m], used with nitsche off"},
         {"ghostVelocity", &N::ghostVelocity, {0, 100}, "ghost penalty of the velocity, viscous scale"},
         {"ghostConvection", &N::ghostConvection, {0, 100}, "ghost penalty of the velocity, convective scale"},
@@ -266,6 +268,9 @@ NumericsControls readNumerics(const Foam::dictionary& fvSolution)
     for (const auto& entry : controlsTable()) known.push_back(entry.keyword);
     checkKeywords(dict, known);
     for (const auto& entry : controlsTable()) readEntry(dict, entry, numerics);
+    if (numerics.wallLaw && numerics.wallGamma == 0)
+        failIn(dict, text("wallLaw is on and wallGamma is 0, which prescribes the velocity of no-slip patches at the nodes: there is nothing for the law to do.\n"
+            "    Give a wallGamma above 0 (default ", NumericsControls().wallGamma, ") or set wallLaw off."));
     return numerics;
 }
 

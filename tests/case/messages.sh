@@ -34,6 +34,8 @@ refused keyword 'setNumerics . "nitscheGama 10;"' \
     fvSolution nitscheGama nitscheGamma
 refused range 'setNumerics . "tolerance -1;"' \
     fvSolution tolerance -1
+refused wallLaw 'setNumerics . "wallLaw on; wallGamma 0;"' \
+    fvSolution wallLaw 'wallGamma is 0'
 refused missingField 'rm 0/p_rgh' p_rgh
 refused alphaRange 'sed "s/^internalField .*/internalField uniform 2;/" 0.orig/alpha.water > 0/alpha.water' alpha.water 'from 0 to 2' 'from 0 to 1'
 refused missingTime 'setEntry system/controlDict startFrom startTime; setEntry system/controlDict startTime 0.7' \

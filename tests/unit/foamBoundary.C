@@ -107,6 +107,7 @@ TEST_CASE("kinds of an interFoam channel, patches in the mesh's order")
     CHECK(s.patch("outlet").velocity == V::Open);
     CHECK(s.patch("outlet").pressure == P::Fixed);
     CHECK(s.patch("floor").isNoSlipWall);
+    CHECK(s.patch("floor").velocity == V::NoSlip);
     CHECK(s.patch("floor").pressure == P::Natural);
     CHECK(s.patch("top").velocity == V::Open);
     CHECK(s.patch("top").pressure == P::Total);

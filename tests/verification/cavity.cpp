@@ -64,7 +64,7 @@ double cavity(int n, double reynolds, double GhiaRow::*column)
     controls.tolerance = 1e-5;
     controls.restart = 100; // viscous numbers up to 2.6
     controls.maxIterations = 500;
-    auto patches = allPatches(mesh, BoundaryPatch::Velocity::Fixed);
+    auto patches = allPatches(mesh, BoundaryPatch::Velocity::NoSlip);
     for (BoundaryPatch& p : patches) p.isNoSlipWall = true;
     patches[3] = makePatch(mesh, 3, BoundaryPatch::Velocity::Fixed, [](const double*, double) { return std::array<double, 3>{1, 0, 0}; });
     Fluid fluid(mesh, halo, properties, controls, patches);
