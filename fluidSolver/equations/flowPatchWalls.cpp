@@ -28,22 +28,55 @@ double edgeHold(const ElementData<D>& e, double held, double h, double dt, doubl
     return outflow > 0 ? e.rho*(h/dt + std::sqrt(squared<D>(e.advection))) : 0;
 }
 
-} // namespace
-
 /// Pa s/m, factor of the tangential velocities' product on a no-slip patch. speed: along the wall, mean over the face [m/s]; height: of the element over it [m].
+/// The more it holds, the less the fluid slips where the elements resolve its shear, and the more it takes from fluid whose layer is far thinner than they are.
 template<int D>
 double tangentialHold(const ElementData<D>& e, const NumericsControls& controls, double speed, double height)
 {
+    constexpr double resolved = 20;     // Reynolds number of an element's height: about that of the viscous sublayer, y+ u+ = 25
     const double reynolds = e.rho*speed*height/e.mu;
-    const double gamma = controls.nitscheGamma + std::max(0.0, controls.wallGamma - controls.nitscheGamma)/(1 + reynolds/20);
-    double hold = gamma*e.mu/height;
-    if (controls.wallLaw && speed > 0)
-    {
-        const double u = velocityOverFriction(reynolds/2, e.rho*speed*controls.wallRoughness/e.mu);
-        hold = std::max(hold, e.rho*speed/(u*u));
-    }
-    return hold;
+    const double gamma = controls.nitscheGamma + std::max(0.0, controls.wallGamma - controls.nitscheGamma)/(1 + reynolds/resolved);
+    const double hold = gamma*e.mu/height;
+    if (!controls.wallLaw || speed <= 0) return hold;
+    const double u = velocityOverFriction(reynolds/2, e.rho*speed*controls.wallRoughness/e.mu);    // in the middle of the element
+    return std::max(hold, e.rho*speed/(u*u));
 }
+
+/// A face of a wall as its element sees it.
+template<int D>
+struct WallFace
+{
+    double normal[3];                       ///< out of the mesh
+    double area = 0, height;                ///< [m^(D-1)]; of the element over it [m]
+    double first[D + 1] = {}, second[(D + 1)*(D + 1)] = {};    ///< int N_a, int N_a N_b over the fluid part, by the element's corners
+    double outflow = 0, speed = 0;          ///< velocity into the wall and along it, means over the face [m/s]
+
+    WallFace(const SimplexMesh& mesh, const Cover* cover, const MeshPatch& faces, std::size_t f, const std::vector<double>& velocity)
+    {
+        const int e = faces.faceElement[f], *face = &faces.faceNodes[f*D], *nodes = &mesh.elements[std::size_t(e)*(D + 1)];
+        outwardVector(mesh, faces, f, normal);
+        area = std::sqrt(squared<D>(normal));
+        for (int d = 0; d < D; ++d) normal[d] /= area;
+        height = D*mesh.volume[e]/area;
+        const FaceMoments<D> moments(cover, face);
+        double mean[D] = {};
+        int corner[D];
+        for (int k = 0; k < D; ++k)
+        {
+            corner[k] = int(std::find(nodes, nodes + D + 1, face[k]) - nodes);
+            for (int d = 0; d < D; ++d) mean[d] += moments.first[k]*velocity[std::size_t(face[k])*D + d];
+        }
+        for (int d = 0; d < D; ++d) outflow += mean[d]*normal[d];
+        speed = std::sqrt(std::max(0.0, squared<D>(mean) - outflow*outflow));
+        for (int k = 0; k < D; ++k)
+        {
+            first[corner[k]] = area*moments.first[k];
+            for (int l = 0; l < D; ++l) second[corner[k]*(D + 1) + corner[l]] = area*moments.second[k*D + l];
+        }
+    }
+};
+
+} // namespace
 
 /// The terms of a wall (wallTerms.hpp) on every face of a no-slip patch, and of a slip patch where it has a node of a re-entrant edge. At other nodes the
 /// normal velocity is prescribed and its terms vanish. No volume passes through the face: the continuity rows lose int q u.n.
@@ -72,37 +105,19 @@ void FlowEquation::addWallFace(const MeshPatch& faces, std::size_t f, bool isSli
     const int e = faces.faceElement[f];
     if (!loadElement<D>(e, data)) return;
     const int* nodes = &mesh_.elements[std::size_t(e)*N];
-    double normal[3], mean[D] = {}, area = 0, outflow = 0;
-    outwardVector(mesh_, faces, f, normal);
-    for (int d = 0; d < D; ++d) area += normal[d]*normal[d];
-    area = std::sqrt(area);
-    for (int d = 0; d < D; ++d) normal[d] /= area;
-    const FaceMoments<D> moments(step_.cover, &faces.faceNodes[f*D]);
-    int corner[D];  // of the element, for each of the face's nodes
-    for (int k = 0; k < D; ++k)
-    {
-        corner[k] = int(std::find(nodes, nodes + N, faces.faceNodes[f*D + k]) - nodes);
-        for (int d = 0; d < D; ++d) mean[d] += moments.first[k]*nodal_.advection[std::size_t(nodes[corner[k]])*D + d];
-    }
-    for (int d = 0; d < D; ++d) outflow += mean[d]*normal[d];
-    double first[N] = {}, second[N*N] = {};
-    for (int k = 0; k < D; ++k)
-    {
-        first[corner[k]] = area*moments.first[k];
-        for (int l = 0; l < D; ++l) second[corner[k]*N + corner[l]] = area*moments.second[k*D + l];
-    }
-    const double height = D*mesh_.volume[e]/area, dt = step_.time.dt;   // of the element over the face: of a layer of stretched elements, not their mean size
-    WallCoefficients c = nitscheCoefficients(data, isSlip, controls_.nitscheGamma, mesh_.h[e], dt, 0);  // no volume passes: nothing flows in
-    if (!isSlip) c.tangential = tangentialHold(data, controls_, std::sqrt(std::max(0.0, squared<D>(mean) - outflow*outflow)), height);
-    c.normal = hasEdge ? edgeHold(data, c.normal, mesh_.h[e], dt, outflow) : 0;
-    const WallTerms<D> terms(c, normal, data.gradN);
+    const WallFace<D> face(mesh_, step_.cover, faces, f, nodal_.advection);
+    WallCoefficients c = nitscheCoefficients(data, isSlip, controls_.nitscheGamma, mesh_.h[e], step_.time.dt, 0);   // no volume passes: nothing flows in
+    c.normal = hasEdge ? edgeHold(data, c.normal, mesh_.h[e], step_.time.dt, face.outflow) : 0;
+    if (!isSlip) c.tangential = tangentialHold(data, controls_, face.speed, face.height);
+    const WallTerms<D> terms(c, face.normal, data.gradN);
     double m[B*B];
     for (int a = 0; a < N; ++a)
     {
         if (nodes[a] >= mesh_.nOwned) continue;
         for (int b = 0; b < N; ++b)
         {
-            terms.block(a, b, first[a], first[b], second[a*N + b], second[a*N + b], m);
+            const double m2 = face.second[a*N + b];
+            terms.block(a, b, face.first[a], face.first[b], m2, m2, m);
             system_.matrix.add<D>(graph_.slot(nodes[a], (std::size_t(e)*N + a)*N + b), m);
         }
     }
