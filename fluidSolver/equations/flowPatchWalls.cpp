@@ -28,18 +28,20 @@ double edgeHold(const ElementData<D>& e, double held, double h, double dt, doubl
     return outflow > 0 ? e.rho*(h/dt + std::sqrt(squared<D>(e.advection))) : 0;
 }
 
-/// Pa s/m, factor of the tangential velocities' product on a no-slip patch. speed: along the wall, mean over the face [m/s]; height: of the element over it [m].
-/// The more it holds, the less the fluid slips where the elements resolve its shear, and the more it takes from fluid whose layer is far thinner than they are.
+/// Coefficients of the tangential velocity on a no-slip patch. speed: along the wall, mean over the face [m/s]; height: of the element over it [m].
+/// Where the elements resolve the layer the form is symmetric, and the fluid above the wall does not feel that the wall slips a little; it needs a gamma above 2 D.
+/// Where they do not, less must hold: what is held there is taken from fluid whose layer is far thinner than the element; the non-symmetric form is stable with it.
 template<int D>
-double tangentialHold(const ElementData<D>& e, const NumericsControls& controls, double speed, double height)
+void holdTangentially(const ElementData<D>& e, const NumericsControls& controls, double speed, double height, WallCoefficients& c)
 {
-    constexpr double resolved = 20;     // Reynolds number of an element's height: about that of the viscous sublayer, y+ u+ = 25
-    const double reynolds = e.rho*speed*height/e.mu;
-    const double gamma = controls.nitscheGamma + std::max(0.0, controls.wallGamma - controls.nitscheGamma)/(1 + reynolds/resolved);
-    const double hold = gamma*e.mu/height;
-    if (!controls.wallLaw || speed <= 0) return hold;
+    constexpr double sublayer = 20;     // Reynolds number of an element's height: about where the viscous sublayer ends, y+ u+ = 25
+    const double reynolds = e.rho*speed*height/e.mu, resolved = 1/(1 + reynolds*reynolds/(sublayer*sublayer));
+    const double gamma = controls.nitscheGamma + std::max(0.0, controls.wallGamma - controls.nitscheGamma)*resolved;
+    c.adjoint = 1 - 2*resolved;
+    c.tangential = gamma*e.mu/height;
+    if (!controls.wallLaw || speed <= 0) return;
     const double u = velocityOverFriction(reynolds/2, e.rho*speed*controls.wallRoughness/e.mu);    // in the middle of the element
-    return std::max(hold, e.rho*speed/(u*u));
+    c.tangential = std::max(c.tangential, e.rho*speed/(u*u));
 }
 
 /// A face of a wall as its element sees it.
@@ -108,7 +110,7 @@ void FlowEquation::addWallFace(const MeshPatch& faces, std::size_t f, bool isSli
     const WallFace<D> face(mesh_, step_.cover, faces, f, nodal_.advection);
     WallCoefficients c = nitscheCoefficients(data, isSlip, controls_.nitscheGamma, mesh_.h[e], step_.time.dt, 0);   // no volume passes: nothing flows in
     c.normal = hasEdge ? edgeHold(data, c.normal, mesh_.h[e], step_.time.dt, face.outflow) : 0;
-    if (!isSlip) c.tangential = tangentialHold(data, controls_, face.speed, face.height);
+    if (!isSlip) holdTangentially(data, controls_, face.speed, face.height, c);
     const WallTerms<D> terms(c, face.normal, data.gradN);
     double m[B*B];
     for (int a = 0; a < N; ++a)

@@ -26,6 +26,7 @@ struct WallCoefficients
     double mu;              ///< [Pa s]
     double tangential;      ///< factor of [u].[w] [Pa s/m]
     double normal;          ///< additional factor of ([u].n)([w].n) [Pa s/m]
+    double adjoint = 1;     ///< factor of (viscous traction of w).[u]: 1 non-symmetric, stable with any factor of [u].[w]; -1 symmetric, adjoint-consistent
     double convection;      ///< 1/2 rho (ubar.n): boundary part of the skew-symmetric convection, on u.w
 };
 
@@ -58,6 +59,7 @@ class WallTerms
 {
 public:
     WallTerms(const WallCoefficients& c, const double* n, const double* gradN)
+    :   adjoint_(c.adjoint)
     {
         for (int k = 0; k < D; ++k)
         {
@@ -74,7 +76,7 @@ public:
         constexpr int B = D + 1;
         for (int k = 0; k < D; ++k)
         {
-            for (int l = 0; l < D; ++l) m[k*B + l] = held*held_[k][l] + m1b*traction_[a][l][k] - m1a*traction_[b][k][l];
+            for (int l = 0; l < D; ++l) m[k*B + l] = held*held_[k][l] + adjoint_*m1b*traction_[a][l][k] - m1a*traction_[b][k][l];
             m[k*B + D] = m2*pressure_[k];
             m[D*B + k] = -m2*pressure_[k];
         }
@@ -97,6 +99,7 @@ private:
     double traction_[D + 1][D][D] = {}; // of the nodes
     double held_[D][D];                 // factor of [u].[w]
     double pressure_[D];
+    double adjoint_;
 };
 
 } // namespace flotsam
