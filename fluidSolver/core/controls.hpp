@@ -33,7 +33,7 @@ struct NumericsControls
     // embedded boundary
     bool nitsche = true;            ///< false: the paper's pure penalty
     double nitscheGamma = 4;        ///< non-symmetric Nitsche: coefficient of mu/h
-    double wallGamma = 64;          ///< the same on no-slip patches whose layer is resolved; 0: their velocity is prescribed at the nodes
+    double wallGamma = 16;          ///< the same on no-slip patches whose layer is resolved; 0: their velocity is prescribed at the nodes
     bool wallLaw = false;           ///< on no-slip patches at least the traction of a turbulent layer
     double wallRoughness = 0;       ///< sand roughness in the wall law [m]
     double penalty = 1e3;           ///< pure penalty pbar [Pa s/m] (paper eq 5), used when nitsche is false

@@ -30,12 +30,13 @@ double edgeHold(const ElementData<D>& e, double held, double h, double dt, doubl
 
 /// Coefficients of the tangential velocity on a no-slip patch. speed: along the wall, mean over the face [m/s]; height: of the element over it [m].
 /// Where the elements resolve the layer the form is symmetric, and the fluid above the wall does not feel that the wall slips a little; it needs a gamma above 2 D.
-/// Where they do not, less must hold: what is held there is taken from fluid whose layer is far thinner than the element; the non-symmetric form is stable with it.
+/// Where they do not, less must hold: what is held there is taken from fluid whose layer is far thinner than the element; the non-symmetric form is stable with it,
+/// and in elements that a solid cuts, of which any small part may lie on the wall.
 template<int D>
-void holdTangentially(const ElementData<D>& e, const NumericsControls& controls, double speed, double height, WallCoefficients& c)
+void holdTangentially(const ElementData<D>& e, const NumericsControls& controls, double speed, double height, bool isCut, WallCoefficients& c)
 {
     constexpr double sublayer = 20;     // Reynolds number of an element's height: about where the viscous sublayer ends, y+ u+ = 25
-    const double reynolds = e.rho*speed*height/e.mu, resolved = 1/(1 + reynolds*reynolds/(sublayer*sublayer));
+    const double reynolds = e.rho*speed*height/e.mu, resolved = isCut ? 0 : 1/(1 + reynolds*reynolds/(sublayer*sublayer));
     const double gamma = controls.nitscheGamma + std::max(0.0, controls.wallGamma - controls.nitscheGamma)*resolved;
     c.adjoint = 1 - 2*resolved;
     c.tangential = gamma*e.mu/height;
@@ -110,7 +111,7 @@ void FlowEquation::addWallFace(const MeshPatch& faces, std::size_t f, bool isSli
     const WallFace<D> face(mesh_, step_.cover, faces, f, nodal_.advection);
     WallCoefficients c = nitscheCoefficients(data, isSlip, controls_.nitscheGamma, mesh_.h[e], step_.time.dt, 0);   // no volume passes: nothing flows in
     c.normal = hasEdge ? edgeHold(data, c.normal, mesh_.h[e], step_.time.dt, face.outflow) : 0;
-    if (!isSlip) holdTangentially(data, controls_, face.speed, face.height, c);
+    if (!isSlip) holdTangentially(data, controls_, face.speed, face.height, step_.cover && step_.cover->state[e] == ElementState::Cut, c);
     const WallTerms<D> terms(c, face.normal, data.gradN);
     double m[B*B];
     for (int a = 0; a < N; ++a)
