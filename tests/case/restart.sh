@@ -58,8 +58,8 @@ structures
 }
 EOF
 fixedSteps touching 0.001 0.08 20
-stopAndGoOn touching 0.06 0.08
-mustTouch touching 0.06 bar edge
+stopAndGoOn touching 0.05 0.08
+mustTouch touching 0.05 bar edge
 
 # The paper's transport, and a round body, whose cut is corrected. Steps grow; write times count from the start, 0.005 s.
 makeFloatingBar growing
