@@ -22,10 +22,10 @@ inline ElementKind kindOf(int e, const SimplexMesh& mesh, const FlowStepData& st
     if (!nodal.film.empty() && filmContinuity(nodes, D + 1, nodal.film) < 1) return ElementKind::Alone;
     bool isOne = nodal.fluid[nodes[0]] != NodalData::Mixed;
     for (int a = 1; a <= D; ++a) isOne &= nodal.fluid[nodes[a]] == nodal.fluid[nodes[0]];
-    const bool isCarried = step.transport && step.transport->fluxes(e).total;
-    if (isOne) return isCarried ? ElementKind::Carried : ElementKind::Plain;
+    const bool hasFluxes = step.transport && isCarried(nodes, D + 1, nodal) && step.transport->fluxes(e).total;
+    if (isOne) return hasFluxes ? ElementKind::Carried : ElementKind::Plain;
     // of first order all nodes of a steep element are, in this element alone
-    return isCarried && controls.surfaceTimeOrder == 2 ? ElementKind::Varying : ElementKind::Alone;
+    return hasFluxes && controls.surfaceTimeOrder == 2 ? ElementKind::Varying : ElementKind::Alone;
 }
 
 /// What loadElementData() gives for elements of a kind, a lane for each.
@@ -163,6 +163,7 @@ private:
         }
         const Real factor = gather<Real>([&](int l) { return isKept[l] ? 1 : lane(rhoOld_, l); });
         PairFluxes<D, Real> fluxes;
+        fluxes.unkeptDensity = gather<Real>([&](int l) { return isKept[l] ? 0 : lane(rhoOld_, l); });
         for (int p = 0; p < fluxes.count; ++p)
         {
             fluxes.total[p] = gather<Real>([&](int l) { return of[l].total[p]; });

@@ -34,6 +34,7 @@ struct NodalData
     enum Fluid : char { Mixed, Liquid, Gas };
     std::vector<Fluid> fluid;                   ///< the one that was there at all three times
     std::vector<NodeInertia> own;               ///< with a transport
+    std::vector<int> isAtSurface;               ///< with a transport: has elements in which the density varies
     std::vector<double> film;                   ///< FilmNode::share; empty: no films
 };
 
@@ -79,6 +80,13 @@ inline void setNodeInertia(const SimplexMesh& mesh, const FlowStepData& step, No
     for (int i = 0; i < mesh.nNodes; ++i) nodal.own[i] = nodeInertia(i, mesh.dim, false, step, nodal);
 }
 
+/// Whether the transport's mass fluxes convect in an element: at nodes with elements in which the density varies. Elsewhere they carry one density, and the element's own
+/// fluxes, at the end of the step, do the same. nodes: its n.
+inline bool isCarried(const int* nodes, int n, const NodalData& nodal)
+{
+    return std::any_of(nodes, nodes + n, [&](int i) { return nodal.isAtSurface[i]; });
+}
+
 /// By the element's mean densities; where the density varies, by those of its nodes.
 template<int D>
 inline bool isSteepElement(const ElementData<D>& data, const int* nodes, const NodalData& nodal, double rhoOld, double rhoOlder)
@@ -115,11 +123,12 @@ struct PairFluxes
 
     Real total[count], liquid[count];   ///< of volume, in the step [m^D/s]
     Real lastMass[count];               ///< of mass in the last step, by the last density where none have been kept [kg/s]
+    Real unkeptDensity;                 ///< the last density where none have been kept, else 0 [kg/m^3]
 };
 
 /// Convection by the transport's mass fluxes at the end of the step. Between nodes of second order they are extrapolated from the means over this step and the last, as
-/// BDF2 of the nodes' masses asks (massFluxes.hpp). Elsewhere, and without fluxes of the last step, the mean over the step is used, plus the mean density times what
-/// the volume flux at the end differs from its mean.
+/// BDF2 of the nodes' masses asks (massFluxes.hpp). Elsewhere the mean over the step is used, plus the mean density times what the volume flux at the end differs from its
+/// mean, and where none have been kept of the last step, as its density did not vary, both: the volume flux by the latter, the density by the former.
 /// Half the flux is the skew-symmetric form, in which a node's own velocity does not appear. A gas node through which more mass flows in one step than its dual cell
 /// holds would then be moved by a multiple of its neighbours' differences, in splashes to 100 m/s and more. So what exceeds the smaller of the two nodes'
 /// masses, shared among the D pairs that a node has in an element, is taken upwind: the differences of velocities around a node then move it by no more
@@ -137,7 +146,8 @@ inline void loadConvection(const PairFluxes<D, Real>& source, double share, cons
         const Real inStep = massFlux<Real>(source.liquid[p], source.total[p], fluid, controls);
         const Real ahead = share*data.isSecondOrder[a]*data.isSecondOrder[b];
         const Real atEnd = data.volume*(1.0/N)*(data.ag[b] - data.ag[a]);
-        const Real flux = inStep + (ahead > 0 ? ahead*(inStep - source.lastMass[p]) : data.rho*(atEnd - source.total[p]));
+        const Real later = atEnd - source.total[p];
+        const Real flux = inStep + (ahead > 0 ? ahead*(inStep - source.lastMass[p]) + source.unkeptDensity*later : data.rho*later);
         const Real mass = smaller<Real>(data.nodalInertia[a]*data.first[a], data.nodalInertia[b]*data.first[b])*(1.0/D);
         const Real upwind = larger<Real>(Real{}, 0.5*absolute<Real>(flux) - mass);
         data.convection[a*N + b] = 0.5*flux - upwind;
@@ -243,9 +253,9 @@ inline bool loadResidualData(int e, const SimplexMesh& mesh, const FlowStepData&
 {
     constexpr int N = D + 1;
     if (!loadMeans<D>(e, mesh, step, controls, nodal, data, source)) return false;
-    if (step.transport && (!source.cut || isAtRest(step, *source.cut))) source.fluxes = step.transport->fluxes(e);
-    data.isVarying = source.fluxes.total != nullptr;
     const int* nodes = &mesh.elements[std::size_t(e)*N];
+    if (step.transport && isCarried(nodes, N, nodal) && (!source.cut || isAtRest(step, *source.cut))) source.fluxes = step.transport->fluxes(e);
+    data.isVarying = source.fluxes.total != nullptr;
     source.time = step.time;
     source.isSteep = isSteepElement<D>(data, nodes, nodal, source.rhoOld, source.rhoOlder);
     if (source.isSteep) source.time = TimeScheme::bdf(1, step.time.dt, 0);
@@ -327,6 +337,7 @@ inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& 
     {
         PairFluxes<D, double> fluxes;
         const double* last = step.massFluxes ? step.massFluxes->of(e) : nullptr;
+        fluxes.unkeptDensity = last ? 0 : source.rhoOld;
         for (int p = 0; p < fluxes.count; ++p)
         {
             fluxes.total[p] = source.fluxes.total[p];

@@ -64,7 +64,23 @@ void FlowEquation::setMaterials()
         nodal_.advection[k] = (1 + t.extrapolation)*s.u[k] - t.extrapolation*s.uOld[k];
         nodal_.history[k] = -(t.c1*s.u[k] + t.c2*s.uOld[k]);
     }
-    if (step_.transport) setNodeInertia(mesh_, step_, nodal_);
+    if (!step_.transport) return;
+    setNodeInertia(mesh_, step_, nodal_);
+    findSurfaceNodes();
+}
+
+void FlowEquation::findSurfaceNodes()
+{
+    nodal_.isAtSurface.assign(mesh_.nNodes, 0);
+    const int n = mesh_.dim + 1;
+    for (int e = 0; e < mesh_.nElements; ++e)
+    {
+        const int* nodes = &mesh_.elements[std::size_t(e)*n];
+        const auto isOther = [&](int i) { return nodal_.fluid[i] == NodalData::Mixed || nodal_.fluid[i] != nodal_.fluid[nodes[0]]; };
+        if (std::any_of(nodes, nodes + n, isOther))
+            for (int a = 0; a < n; ++a) nodal_.isAtSurface[nodes[a]] = 1;
+    }
+    halo_.update(nodal_.isAtSurface, 1);
 }
 
 void FlowEquation::assemble(const FlowStepData& step)
