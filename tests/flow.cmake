@@ -64,6 +64,7 @@ flotsam_test(cavity verification SOURCES verification/cavity.cpp LIBRARIES flots
 flotsam_test(addedMass verification SOURCES verification/addedMass.cpp LIBRARIES flotsam_flow_support)
 flotsam_test(neutralBody verification SOURCES verification/neutralBody.cpp LIBRARIES flotsam_flow_support RANKS 1 2)
 flotsam_test(surfaceTimeOrder verification SOURCES verification/surfaceTimeOrder.cpp LIBRARIES flotsam_flow_support)
+flotsam_test(carriedPhase verification SOURCES verification/carriedPhase.cpp LIBRARIES flotsam_flow_support RANKS 1 2)
 flotsam_test(actionReaction verification SOURCES verification/actionReaction.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(budgets verification SOURCES verification/budgets.cpp LIBRARIES flotsam_flow_support flotsam_coupling RANKS 1 2)

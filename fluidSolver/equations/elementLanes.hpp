@@ -8,7 +8,7 @@ namespace flotsam
 {
 
 /// Elements of a kind may be computed together, unless they are to be alone.
-/// Plain: one fluid fills the element at every time level. Carried: the same, but the phase field varies, and its fluxes carry the momentum.
+/// Plain: one fluid fills the element at every time level. Carried: the same, but beside elements with two, and the phase field's fluxes carry the momentum.
 /// Varying: two fluids. Carried and varying ones are what ElementData calls varying.
 enum class ElementKind { Plain, Carried, Varying, Alone };
 
@@ -64,7 +64,8 @@ public:
         if (isOneFluid_) loadOneFluid();
         else loadTwoFluids();
         if (data.isVarying) loadConvection<D, Real>(pairFluxes(), lastFluxShare(step_), fluid_, controls_, data);
-        loadTauContinuity<D, Real>(rates_, h_, controls_, data);
+        const Real timeShare = gather<Real>([&](int l) { return gradDivTimeShare(nodes_[l], N, controls_, nodal_); });
+        loadTauContinuity<D, Real>(rates_, h_, timeShare, controls_, data);
     }
 
     /// value(node) of corner a.

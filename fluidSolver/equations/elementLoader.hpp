@@ -34,7 +34,8 @@ struct NodalData
     enum Fluid : char { Mixed, Liquid, Gas };
     std::vector<Fluid> fluid;                   ///< the one that was there at all three times
     std::vector<NodeInertia> own;               ///< with a transport
-    std::vector<int> isAtSurface;               ///< with a transport: has elements in which the density varies
+    enum SurfaceRing : int { Far, Beside, At }; ///< At: the node has elements in which the density varies; Beside: neighbours that have
+    std::vector<int> surfaceRing;               ///< with a transport
     std::vector<double> film;                   ///< FilmNode::share; empty: no films
 };
 
@@ -80,11 +81,23 @@ inline void setNodeInertia(const SimplexMesh& mesh, const FlowStepData& step, No
     for (int i = 0; i < mesh.nNodes; ++i) nodal.own[i] = nodeInertia(i, mesh.dim, false, step, nodal);
 }
 
-/// Whether the transport's mass fluxes convect in an element: at nodes with elements in which the density varies. Elsewhere they carry one density, and the element's own
-/// fluxes, at the end of the step, do the same. nodes: its n.
-inline bool isCarried(const int* nodes, int n, const NodalData& nodal)
+/// Of the element's n nodes the ring nearest to the surface; Far without a transport.
+inline int nearestRing(const int* nodes, int n, const NodalData& nodal)
 {
-    return std::any_of(nodes, nodes + n, [&](int i) { return nodal.isAtSurface[i]; });
+    int nearest = NodalData::Far;
+    for (int a = 0; a < n && !nodal.surfaceRing.empty(); ++a) nearest = std::max(nearest, nodal.surfaceRing[nodes[a]]);
+    return nearest;
+}
+
+/// Whether the transport's mass fluxes convect in an element, if it has any: where a node has elements in which the density varies. Elsewhere they carry one density, and
+/// the element's own fluxes, at the end of the step, do the same.
+inline bool isCarried(const int* nodes, int n, const NodalData& nodal) { return nearestRing(nodes, n, nodal) == NodalData::At; }
+
+/// Share of the time step's rate in the grad-div term. Beside the surface all of it, as waves grow with less: in the elements that the mass fluxes convect in and those
+/// around. Elsewhere it only resists motions that P1 cannot make free of divergence, the more the smaller the step (docs/numerics.md).
+inline double gradDivTimeShare(const int* nodes, int n, const NumericsControls& controls, const NodalData& nodal)
+{
+    return nearestRing(nodes, n, nodal) == NodalData::Far ? controls.tauContBulk : 1;
 }
 
 /// By the element's mean densities; where the density varies, by those of its nodes.
@@ -187,11 +200,8 @@ inline ElementRates<Real> addFineScale(const Real* fineScale, const Real& h, dou
 }
 
 template<int D, class Real>
-inline void loadTauContinuity(const ElementRates<Real>& rates, const Real& h, const NumericsControls& controls, ElementData<D, Real>& data)
+inline void loadTauContinuity(const ElementRates<Real>& rates, const Real& h, const Real& timeShare, const NumericsControls& controls, ElementData<D, Real>& data)
 {
-    // beside the surface all of it, as waves grow with less; elsewhere it only resists motions that P1 cannot make free of divergence, the more the
-    // smaller the step (docs/numerics.md)
-    const double timeShare = data.isVarying ? 1 : controls.tauContBulk;
     data.tauCont = controls.tauContFactor*(controls.tauContWithTimeStep ? rates.tauContinuity(data.rho, h, timeShare)
         : steadyTauContinuity<Real>(data.rho, squared<D>(data.advection), h, data.mu/data.rho));
 }
@@ -346,7 +356,7 @@ inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& 
         }
         loadConvection<D, double>(fluxes, lastFluxShare(step), fluid, controls, data);
     }
-    loadTauContinuity<D, double>(source.rates, mesh.h[e], controls, data);
+    loadTauContinuity<D, double>(source.rates, mesh.h[e], gradDivTimeShare(&mesh.elements[std::size_t(e)*(D + 1)], D + 1, controls, nodal), controls, data);
     if (!nodal.film.empty()) data.tauCont *= filmContinuity(&mesh.elements[std::size_t(e)*(D + 1)], D + 1, nodal.film);
     return true;
 }

@@ -7,6 +7,7 @@
 #include "equations/gasRegion.hpp"
 #include "equations/materials.hpp"
 #include "equations/shutPockets.hpp"
+#include "equations/surfaceRings.hpp"
 
 #include <algorithm>
 
@@ -66,21 +67,7 @@ void FlowEquation::setMaterials()
     }
     if (!step_.transport) return;
     setNodeInertia(mesh_, step_, nodal_);
-    findSurfaceNodes();
-}
-
-void FlowEquation::findSurfaceNodes()
-{
-    nodal_.isAtSurface.assign(mesh_.nNodes, 0);
-    const int n = mesh_.dim + 1;
-    for (int e = 0; e < mesh_.nElements; ++e)
-    {
-        const int* nodes = &mesh_.elements[std::size_t(e)*n];
-        const auto isOther = [&](int i) { return nodal_.fluid[i] == NodalData::Mixed || nodal_.fluid[i] != nodal_.fluid[nodes[0]]; };
-        if (std::any_of(nodes, nodes + n, isOther))
-            for (int a = 0; a < n; ++a) nodal_.isAtSurface[nodes[a]] = 1;
-    }
-    halo_.update(nodal_.isAtSurface, 1);
+    findSurfaceRings(mesh_, halo_, nodal_);
 }
 
 void FlowEquation::assemble(const FlowStepData& step)

@@ -123,7 +123,6 @@ private:
         return loadMeans<D>(e, mesh_, step_, controls_, nodal_, data, source);
     }
     void setMaterials();
-    void findSurfaceNodes();
     void buildConstraints();
 
     const SimplexMesh& mesh_;

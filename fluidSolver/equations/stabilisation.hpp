@@ -21,14 +21,14 @@ struct ElementRates
 
     /// 1/T [1/s], T the time in which an element passes on what happens in it: Tezduyar's tau. The time step belongs into it: without it the
     /// two-phase scheme blows up within 30 steps (docs/numerics.md). timeShare: of 2/dt.
-    Real elementRate(double timeShare = 1) const { return squareRoot<Real>(timeShare*timeShare*transient + convective + 12*12*viscous); }
+    Real elementRate(const Real& timeShare) const { return squareRoot<Real>(timeShare*timeShare*transient + convective + 12*12*viscous); }
 
     /// tau of SUPG and PSPG [s]: multiplies the momentum residual divided by rho. Where inertia counts `factor` times T (all of it damps vortices),
     /// where viscosity does 3/4 of T (with less the pressure beside cut elements converges slower than with order 1.5, with more the velocity is worse).
     Real tauMomentum(double factor) const { return factor/squareRoot<Real>(transient + convective + factor*factor*16*16*viscous); }
 
     /// tau_cont [Pa s] of the grad-div term: rho h^2/(12 T).
-    Real tauContinuity(const Real& rho, const Real& h, double timeShare) const { return rho*(h*h/12*elementRate(timeShare)); }
+    Real tauContinuity(const Real& rho, const Real& h, const Real& timeShare) const { return rho*(h*h/12*elementRate(timeShare)); }
 
     /// Share of u' that convects (0..1): the inertial part of T. The residual of P1 lacks the viscous stress, u' is wrong where that matters, and there it
     /// oscillates from step to step (lid-driven cavity at Re 100); convection is of no importance in such elements.
