@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Error, cost and conservation of the phase transport: Zalesak's disc (one turn), the reversed vortex, a reversed deformation in 3D.
-/// usage: transportTable [largest n, default 128 [3D: yes or no, default no [Courant number, default 0.5 [delta/h, default the program's [case]]]]]
-/// With a case ("zalesak", "vortex T=2", "vortex T=4", "vortex T=8", "deformation 3D") only this one, on n cells a side only.
+/// usage: transportTable [largest n, default 128 [3D: yes or no, default no [Courant number, default 0.5 [delta/h, default the program's [case [meshes]]]]]]
+/// With a case ("zalesak", "vortex T=2", "vortex T=4", "vortex T=8", "deformation 3D") only this one, on n cells a side only; on several meshes, whose nodes are moved
+/// otherwise, a line for each and, last, means (of alpha the extremes).
 #include "support/transportScene.hpp"
 
 #include <algorithm>
@@ -37,22 +38,65 @@ std::vector<Problem> problems()
     return all;
 }
 
-void run(const Problem& problem, int n, double width, double courant)
+TransportResult resultOf(const Problem& problem, int n, double width, double courant, int seed)
 {
-    TransportScene scene(MPI_COMM_WORLD, problem.dim, n, width, problem.field);
+    TransportScene scene(MPI_COMM_WORLD, problem.dim, n, width, problem.field, seed);
     if (problem.fastest > 0)
     {
         scene.fastest = problem.fastest;
     }
     scene.fill(problem.liquid);
-    const TransportResult r = runPeriod(scene, problem.period, courant,
-        [&problem](double t) { return problem.isReversed ? std::cos(M_PI*t/problem.period) : 1; });
-    if (scene.halo.rank() == 0)
+    return runPeriod(scene, problem.period, courant, [&problem](double t) { return problem.isReversed ? std::cos(M_PI*t/problem.period) : 1; });
+}
+
+void print(const Problem& problem, int n, double width, const TransportResult& r)
+{
+    int rank;
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    if (rank != 0)
     {
-        std::printf("%-14s n %4d delta %.2f | error %.4f mass %+.1e redistributed %.1e alpha [%.1e, 1%+.1e] limited %ld "
-                    "| %.3f us/node/step, %d steps, band %.3f roof %.3f\n", problem.name.c_str(), n, width, r.error, r.massError,
-            r.redistributed, r.lowest, r.highest - 1, r.limited, 1e6*r.secondsPerNodeStep, r.steps, r.bandShare, r.roofShare);
-        std::fflush(stdout);
+        return;
+    }
+    std::printf("%-14s n %4d delta %.2f | error %.4f mass %+.1e redistributed %.1e alpha [%.1e, 1%+.1e] limited %ld "
+                "| %.3f us/node/step, %d steps, band %.3f roof %.3f\n", problem.name.c_str(), n, width, r.error, r.massError,
+        r.redistributed, r.lowest, r.highest - 1, r.limited, 1e6*r.secondsPerNodeStep, r.steps, r.bandShare, r.roofShare);
+    std::fflush(stdout);
+}
+
+/// Mean of the errors and costs, extremes of what must not happen.
+TransportResult summary(const std::vector<TransportResult>& all)
+{
+    TransportResult mean = all.front();
+    const auto average = [&](auto TransportResult::*figure)
+    {
+        mean.*figure = 0;
+        for (const TransportResult& r : all) mean.*figure += r.*figure/double(all.size());
+    };
+    for (auto figure : {&TransportResult::error, &TransportResult::redistributed, &TransportResult::secondsPerNodeStep, &TransportResult::bandShare,
+             &TransportResult::roofShare})
+    {
+        average(figure);
+    }
+    for (const TransportResult& r : all)
+    {
+        mean.massError = std::abs(r.massError) > std::abs(mean.massError) ? r.massError : mean.massError;
+        mean.lowest = std::min(mean.lowest, r.lowest);
+        mean.highest = std::max(mean.highest, r.highest);
+    }
+    return mean;
+}
+
+void run(const Problem& problem, int n, double width, double courant, int nMeshes = 1)
+{
+    std::vector<TransportResult> all;
+    for (int seed = 0; seed < nMeshes; ++seed)
+    {
+        all.push_back(resultOf(problem, n, width, courant, seed));
+        print(problem, n, width, all.back());
+    }
+    if (nMeshes > 1)
+    {
+        print(problem, n, width, summary(all));
     }
 }
 
@@ -66,11 +110,12 @@ int main(int argc, char** argv)
     const double courant = argc > 3 ? std::atof(argv[3]) : 0.5;
     const double width = argc > 4 ? std::atof(argv[4]) : NumericsControls().interfaceWidth;
     const std::string only = argc > 5 ? argv[5] : "";
+    const int nMeshes = argc > 6 ? std::max(1, std::atoi(argv[6])) : 1;
     for (const Problem& problem : problems())
     {
         if (problem.name == only)
         {
-            run(problem, largest, width, courant);
+            run(problem, largest, width, courant, nMeshes);
         }
         for (int n = problem.smallest; only.empty() && n <= std::min(largest, problem.largest) && (problem.dim == 2 || with3D); n *= 2)
         {

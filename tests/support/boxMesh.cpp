@@ -36,9 +36,10 @@ public:
         heldEnd_ = std::min(end_ + 2, cells_[0] + 1);
     }
 
-    SimplexMesh build(double perturbation, bool alternateDiagonals)
+    SimplexMesh build(double perturbation, bool alternateDiagonals, int seed)
     {
         perturbation_ = perturbation;
+        seed_ = seed;
         alternate_ = alternateDiagonals;
         mesh_.dim = dim_;
         if (dim_ == 2 && upper_[2] > lower_[2])
@@ -83,10 +84,10 @@ private:
         return localNode_[(i[0] - heldBegin_) + (heldEnd_ - heldBegin_) * (i[1] + (cells_[1] + 1) * i[2])];
     }
 
-    /// In [-1, 1], from the node number and the direction (splitmix64).
-    static double randomNumber(std::int64_t node, int direction)
+    /// In [-1, 1], from the node number, the direction and the seed (splitmix64).
+    double randomNumber(std::int64_t node, int direction) const
     {
-        std::uint64_t z = (static_cast<std::uint64_t>(node) * 3 + direction + 1) * 0x9e3779b97f4a7c15ull;
+        std::uint64_t z = ((static_cast<std::uint64_t>(node) * 3 + direction + 1) ^ (static_cast<std::uint64_t>(seed_) << 48)) * 0x9e3779b97f4a7c15ull;
         z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
         z ^= z >> 31;
@@ -235,6 +236,7 @@ private:
     int begin_ = 0, end_ = 0;         // owned node planes
     int heldBegin_ = 0, heldEnd_ = 0; // node planes with the two rings
     double perturbation_ = 0;
+    int seed_ = 0;
     bool alternate_ = false;
     std::vector<int> localNode_;
     SimplexMesh mesh_;
@@ -243,9 +245,9 @@ private:
 } // namespace
 
 SimplexMesh makeBoxMesh(MPI_Comm comm, int dim, std::array<int, 3> cells, std::array<double, 3> lower,
-    std::array<double, 3> upper, double perturbation, bool alternateDiagonals)
+    std::array<double, 3> upper, double perturbation, bool alternateDiagonals, int seed)
 {
-    return BoxBuilder(comm, dim, cells, lower, upper).build(perturbation, alternateDiagonals);
+    return BoxBuilder(comm, dim, cells, lower, upper).build(perturbation, alternateDiagonals, seed);
 }
 
 } // namespace flotsam

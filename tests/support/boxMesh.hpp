@@ -16,9 +16,9 @@ namespace flotsam
 /// originalNode: lexicographic, x fastest: i + (nx+1)(j + (ny+1)k); it differs from globalNode on more than one rank.
 /// dim 2: axes 0 1 2, planeOffset and thickness from lower[2], upper[2] when they differ, else 0 and 1; cells[2] is ignored.
 /// perturbation: largest displacement of the interior nodes as a fraction of the cell size in each direction (keep it
-/// below 0.2), from a hash of originalNode: the same mesh on any number of ranks.
+/// below 0.2), from a hash of originalNode and seed: the same mesh on any number of ranks.
 /// alternateDiagonals: mirrors every second cell in each direction (no preferred diagonal; still conforming).
 SimplexMesh makeBoxMesh(MPI_Comm comm, int dim, std::array<int, 3> cells, std::array<double, 3> lower,
-    std::array<double, 3> upper, double perturbation = 0, bool alternateDiagonals = false);
+    std::array<double, 3> upper, double perturbation = 0, bool alternateDiagonals = false, int seed = 0);
 
 } // namespace flotsam

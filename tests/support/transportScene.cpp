@@ -68,9 +68,9 @@ void multiplyStiffness(const SimplexMesh& mesh, const std::vector<double>& q, st
 
 } // namespace
 
-TransportScene::TransportScene(MPI_Comm comm, int dim, int n, double width, const VelocityField& field)
+TransportScene::TransportScene(MPI_Comm comm, int dim, int n, double width, const VelocityField& field, int seed)
     : controls([width] { NumericsControls c; c.interfaceWidth = width; return c; }()),
-      mesh(makeBoxMesh(comm, dim, {n, n, n}, {0, 0, 0}, {1, 1, 1}, 0.15)), graph(mesh), halo(mesh, comm),
+      mesh(makeBoxMesh(comm, dim, {n, n, n}, {0, 0, 0}, {1, 1, 1}, 0.15, false, seed)), graph(mesh), halo(mesh, comm),
       transport(mesh, graph, halo, controls), volume(dualVolumes(mesh, nullptr)), velocity(std::size_t(mesh.nNodes)*dim),
       fineScale(std::size_t(mesh.nElements)*dim, 0), alpha(mesh.nNodes, 0)
 {

@@ -34,8 +34,8 @@ struct TransportScene
     std::vector<PatchValues> values;
     double fastest = 0;                     ///< largest speed at unit amplitude
 
-    /// Unit square or cube with n cells a direction, interior nodes moved by 0.15 cells.
-    TransportScene(MPI_Comm comm, int dim, int n, double width, const VelocityField& field);
+    /// Unit square or cube with n cells a direction, interior nodes moved by 0.15 cells; seed: other moves.
+    TransportScene(MPI_Comm comm, int dim, int n, double width, const VelocityField& field, int seed = 0);
 
     Point point(int i) const;
 
