@@ -9,7 +9,7 @@ from runner import foam
 
 # figure: (largest allowed, what it is)
 BOUNDS = {
-    "water": (3, "largest speed of the liquid over that which energy allows"),
+    "water": (3, "largest speed of the liquid over that which energy allows; beside bodies heavier than it over their energy in as much liquid"),
     "gas": (10, "largest speed in the gas over the same"),
     "energy": (0.05, "largest rise of the mechanical energy above an earlier value, over the energy there is; scenes without forcing"),
     "alpha": (1e-4, "largest excess of the phase field over 0 and 1"),
@@ -95,7 +95,7 @@ def _fields(s, mesh, root, folder):
             continue        # without the solids' fraction
         times.append(float(name))
         energies.append(_energy(s, mesh, u, alpha, solid))
-    result = {"water": water / s.speed, "gas": gas / s.speed, "alpha": excess}
+    result = {"water": water / _liquidSpeed(s), "gas": gas / s.speed, "alpha": excess}
     if not s.forced and energies:
         total = np.array(energies) + _bodyEnergy(s, root, folder, times)
         result["energy"] = float((total - np.minimum.accumulate(total)).max() / _available(s, liquid))
@@ -108,6 +108,11 @@ def _energy(s, mesh, u, alpha, solid):
     rho = s.rho[0] * alpha + (0 if s.oneFluid else s.rho[1]) * (1 - alpha)
     outweighs = 0 if s.oneFluid else s.rho[0] - s.rho[1]
     return float((v * (0.5 * rho * (u**2).sum(axis=1) - outweighs * alpha * (mesh.centre @ s.gravity))).sum())
+
+
+def _liquidSpeed(s):
+    """What energy allows the liquid: a body heavier than it squeezes it out of the gap that it closes, and hands it its own energy per volume [m/s]."""
+    return s.speed * np.sqrt(max([1] + [b.density / s.rho[0] for b in s.bodies]))
 
 
 def _around(s):

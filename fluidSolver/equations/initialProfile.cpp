@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace flotsam
 {
@@ -18,22 +19,73 @@ namespace
 constexpr int profileRings = 12;
 constexpr double profileWidths = 35;
 
-/// Signed distance [m]. The plane's sign is wrong behind corners of the surface: there the sharp field knows better.
-double profileDistance(const SimplexMesh& mesh, const InterfacePlanes& planes, int i, double sharp)
+constexpr double ringShare = 0.6;
+
+constexpr double none = std::numeric_limits<double>::infinity();
+
+/// Of nodes of elements that the surface cuts: distance from the zero of the level's linear interpolation, the least of those of the elements [m]; elsewhere `none`.
+/// Unlike that from the nearest plane it cannot be on the wrong side.
+std::vector<double> interpolatedDistance(const SimplexMesh& mesh, const std::vector<double>& level)
 {
-    double d = planes.distance(i);
-    const bool isBulk = sharp < 1e-6 || sharp > 1 - 1e-6;
-    if (isBulk && (sharp > 0.5) != (d > 0))
+    const std::size_t dim = mesh.dim, n = dim + 1;
+    std::vector<double> result(mesh.nNodes, none);
+    for (int e = 0; e < mesh.nElements; ++e)
     {
-        double s = 0;
-        for (int k = 0; k < mesh.dim; ++k)
+        const int* nodes = &mesh.elements[e*n];
+        const auto isWet = [&](int i) { return level[i] >= 0; };
+        if (std::all_of(nodes, nodes + n, isWet) || std::none_of(nodes, nodes + n, isWet)) continue;
+        double slope = 0;
+        for (std::size_t d = 0; d < dim; ++d)
         {
-            const double r = mesh.x[static_cast<std::size_t>(i)*mesh.dim + k] - planes.point(i)[k];
-            s += r*r;
+            double gradient = 0;
+            for (std::size_t a = 0; a < n; ++a) gradient += level[nodes[a]]*mesh.gradN[(e*n + a)*dim + d];
+            slope += gradient*gradient;
         }
-        d = sharp > 0.5 ? std::sqrt(s) : -std::sqrt(s);
+        for (std::size_t a = 0; a < n; ++a) result[nodes[a]] = std::min(result[nodes[a]], std::abs(level[nodes[a]])/std::sqrt(slope));
     }
-    return d;
+    return result;
+}
+
+/// What the surface is away at least, by the rings of elements between [m]: behind edges of the surface the nearest plane goes on where there is no surface.
+std::vector<double> leastDistance(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& interpolated)
+{
+    const int dim = mesh.dim, n = dim + 1;
+    std::vector<double> result(interpolated), height(mesh.nElements, none);
+    for (int e = 0; e < mesh.nElements; ++e)
+        for (int a = 0; a < n; ++a)
+        {
+            const double* g = &mesh.gradN[(static_cast<std::size_t>(e)*n + a)*dim];
+            height[e] = std::min(height[e], 1/std::hypot(g[0], g[1], dim == 3 ? g[2] : 0));
+        }
+    for (int ring = 0; ring < profileRings; ++ring)
+    {
+        halo.update(result, 1);
+        const std::vector<double> last = result;
+        for (int e = 0; e < mesh.nElements; ++e)
+        {
+            const int* nodes = &mesh.elements[static_cast<std::size_t>(e)*n];
+            double least = none;
+            for (int a = 0; a < n; ++a) least = std::min(least, last[nodes[a]]);
+            for (int a = 0; a < n; ++a) result[nodes[a]] = std::min(result[nodes[a]], least + ringShare*height[e]);
+        }
+    }
+    halo.update(result, 1);
+    return result;
+}
+
+/// Signed distance [m]. interpolated, least: of the node, as above.
+double profileDistance(const SimplexMesh& mesh, const InterfacePlanes& planes, int i, double level, double interpolated, double least)
+{
+    const double d = planes.distance(i);
+    if (level*d > 0 || (level == 0 && interpolated == none)) return std::copysign(least < none ? std::max(least, std::abs(d)) : std::abs(d), d);
+    if (interpolated < none) return std::copysign(interpolated, level);
+    double s = 0;
+    for (int k = 0; k < mesh.dim; ++k)
+    {
+        const double r = mesh.x[static_cast<std::size_t>(i)*mesh.dim + k] - planes.point(i)[k];
+        s += r*r;
+    }
+    return std::copysign(std::sqrt(s), level);
 }
 
 /// {int alpha, d(int alpha)/d(shift)} over owned nodes of all ranks, for d shifted by `shift` [m].
@@ -111,10 +163,12 @@ void makeStartProfile(const SimplexMesh& mesh, const NodeGraph& graph, const Hal
     }
 
     constexpr double far = 1e3;     // widths: 0 or 1 exactly
+    const std::vector<double> interpolated = interpolatedDistance(mesh, level);
+    const std::vector<double> least = leastDistance(mesh, halo, interpolated);
     std::vector<ProfileSlab> slabs(mesh.nOwned);
     for (int i = 0; i < mesh.nOwned; ++i)
     {
-        if (planes.has(i)) slabs[i] = profileSlab(cells, i, planes.normal(i), profileDistance(mesh, planes, i, alpha[i]), width[i]);
+        if (planes.has(i)) slabs[i] = profileSlab(cells, i, planes.normal(i), profileDistance(mesh, planes, i, level[i], interpolated[i], least[i]), width[i]);
         else slabs[i] = {alpha[i] > 0.5 ? far : -far, 0};
     }
     const double shift = volumeKeepingShift(mesh, halo, volume, slabs, width, liquid);

@@ -219,6 +219,7 @@ private:
     /// One ring further, by the planes of the neighbours: a surface through a node touches elements of full and empty cells.
     void extend(std::vector<double>& level) const
     {
+        if (cells_.length() == 0) return;   // profiles alone
         const std::size_t dim = mesh_.dim, n = dim + 1;
         const std::vector<std::array<double, 3>> normal = normals(level);
         const std::vector<double> nodal = cells_.toNodes(cells_.cut(), dim, [&](std::size_t k, int, double* value) { std::copy_n(normal[k].data(), dim, value); });
@@ -241,12 +242,32 @@ private:
         }
         halo_.sumToOwners(sum, 2);
         halo_.update(sum, 2);
+        const std::vector<double> least = smallestHeights();
         for (std::size_t i = 0; i < level.size(); ++i)
         {
-            if (isKnown(i) || sum[2*i + 1] <= 0) continue;
+            if (isKnown(i) || sum[2*i + 1] <= 0 || level[i] == 0) continue;
             const double value = sum[2*i]/sum[2*i + 1];
-            if (value*level[i] > 0) level[i] = value; // the cells around it are full or empty: their side counts
+            level[i] = std::copysign(std::max(std::copysign(1, level[i])*value, least[i]), level[i]); // the cells around it are full or empty: their side counts
         }
+    }
+
+    /// Of the elements around each node, over the common length: no surface within them is nearer.
+    std::vector<double> smallestHeights() const
+    {
+        const std::size_t dim = mesh_.dim, n = dim + 1;
+        std::vector<double> result(mesh_.nNodes, 0.5);
+        for (std::size_t e = 0; e < std::size_t(mesh_.nElements); ++e)
+        {
+            double steepest = 0;
+            for (std::size_t a = 0; a < n; ++a)
+            {
+                const double* g = &mesh_.gradN[(e*n + a)*dim];
+                steepest = std::max(steepest, std::hypot(g[0], g[1], dim == 3 ? g[2] : 0));
+            }
+            for (std::size_t a = 0; a < n; ++a) result[mesh_.elements[e*n + a]] = std::min(result[mesh_.elements[e*n + a]], 1/(steepest*cells_.length()));
+        }
+        halo_.update(result, 1);
+        return result;
     }
 
     const MeshAdapter& adapter_;

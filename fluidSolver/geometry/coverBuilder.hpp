@@ -118,6 +118,7 @@ private:
     void addClosedFaces();
     void addElementsOf(const Cover& cover, const std::vector<Solid>& solids, int solid, const std::vector<Sample>& samples);
     void cutElement(Cover& cover, const std::vector<Solid>& solids, int element) const;
+    bool onlyTouches(int element, const double* distance, int nInside) const;
     bool isAtEdgeOfOne(const Cover& cover, int element) const;
     bool endsAtEdge(const Cover& cover, int element) const;
     bool endsAtEdge(const Cover& cover, int element, int corner) const;

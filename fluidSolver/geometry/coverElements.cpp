@@ -11,8 +11,8 @@ namespace flotsam
 namespace
 {
 
-// a facet below this, beside a solid part below negligiblePart, comes from nodes that were set just inside a surface
-constexpr double negligibleFacet = 1e-11;
+// a facet below this, beside a solid part below negligiblePart, comes from nodes that were set just inside a surface: ten times what their depth (nodeSnap) times an edge makes
+constexpr double negligibleFacet = 1e-10;
 
 template <int dim>
 SimplexCut<dim> wholeSimplex(double volume)
@@ -35,11 +35,22 @@ void CoverBuilder::cutElement(Cover& cover, const std::vector<Solid>& solids, in
         distance[a] = cover.distance[nodesOf(element)[a]];
         if (distance[a] < 0) ++nSolid;
     }
+    if (onlyTouches(element, distance, nSolid)) nSolid = 0;
     cover.cutIndex[element] = -1;
     if (nSolid == mesh_.dim + 1) cover.state[element] = ElementState::Solid;
     else if (nSolid == 0 && !isAtEdgeOfOne(cover, element) && !endsAtEdge(cover, element)) cover.state[element] = ElementState::Fluid;
     else if (mesh_.dim == 2) cutElementOf<2>(cover, solids, element, distance);
     else cutElementOf<3>(cover, solids, element, distance);
+}
+
+/// A corner or an edge of the element lies on a surface to round-off, the rest outside: a matter of which nodes, not of how small a part their snapped distances cut off.
+/// nInside: nodes inside of the distance.
+bool CoverBuilder::onlyTouches(int element, const double* distance, int nInside) const
+{
+    if (nInside >= mesh_.dim) return false;
+    for (int a = 0; a <= mesh_.dim; ++a)
+        if (distance[a] < -snap_[nodesOf(element)[a]]) return false;
+    return true;
 }
 
 /// Between two solids the least of the distances is cut: linear.
@@ -104,7 +115,7 @@ CoverBuilder::CuttingFaces<dim> CoverBuilder::cuttingFaces(const Solid& solid, i
             values[a] = at[a][k];
             nInside += values[a] < 0;
         }
-        if (nInside == 0) cutting.isApart = true;
+        if (onlyTouches(element, values, nInside)) cutting.isApart = true;
         if (nInside <= dim) ++cutting.n;
     }
     return cutting;
@@ -135,7 +146,7 @@ template <int dim>
 void CoverBuilder::cutElementOf(Cover& cover, const std::vector<Solid>& solids, int element, const double* distance) const
 {
     if (isAtEdgeOfOne(cover, element)) return cutElementAtEdge<dim>(cover, solids, element, distance);
-    const bool isCut = *std::min_element(distance, distance + dim + 1) < 0;
+    const bool isCut = !onlyTouches(element, distance, static_cast<int>(std::count_if(distance, distance + dim + 1, [](double d) { return d < 0; })));
     const SimplexCut<dim> cut = isCut ? cutSimplex<dim>(distance, mesh_.volume[element], verticesOf<dim>(element).data(), &mesh_.gradN[std::size_t(element) * (dim + 1) * dim])
                                       : wholeSimplex<dim>(mesh_.volume[element]);
     if (!endsAtEdge(cover, element)) return storeCut<dim>(cover, solids, element, cut, cut.facets, cut.nFacets);

@@ -221,6 +221,53 @@ TEST_CASE("surfaces that lie in the mesh's nodes and faces")
     }
 }
 
+TEST_CASE("what touches a structure with an edge or a corner is not cut, whatever round-off and a body nearby make of the distances")
+{
+    for (const int dim : {2, 3})
+        for (const double height : {1., 0.3})       // of the mesh: elements as long as wide, and flat ones
+            for (const bool isWithin : {true, false})   // sharp, or through the boundary and linear
+            {
+                SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, dim, {8, 8, 8}, {-1, -height, -1}, {1, height, 1});
+                const NodeGraph graph(mesh);
+                const Halo halo(mesh, MPI_COMM_WORLD);
+                std::vector<Solid> solids(2);
+                const Vec3 size = isWithin ? Vec3(1, height, 1) : Vec3(1, 4, 4);
+                solids[0].shape = makeBox(Vec3::Zero(), size);
+                solids[1].kind = Solid::Kind::Free;
+                solids[1].shape = makeSphere(Vec3::Zero(), 0.1*height);
+                CoverBuilder builder(mesh, graph, halo);
+                long wrong = 0, cuts = 0;
+                for (int k = 0; k < 12; ++k)
+                {
+                    solids[0].pose.position.x() = 1e-16*(k % 5 - 2);
+                    solids[1].pose.position = Vec3(0.5 + (0.12 + 0.02*k)*height, (0.06*k - 0.31)*height, dim == 2 ? 0 : 0.05*k - 0.4);
+                    const Cover& cover = builder.build(solids);
+                    for (int e = 0; e < mesh.nElements; ++e)
+                    {
+                        const int* nodes = &mesh.elements[std::size_t(e)*(dim + 1)];
+                        int nIn = 0;    // nodes in the closed box
+                        bool isInside = true, isNearBody = false;
+                        Vec3 centre = Vec3::Zero();
+                        for (int a = 0; a <= dim; ++a)
+                        {
+                            const auto x = mesh.spacePoint(nodes[a]);
+                            const Vec3 y(x[0], x[1], x[2]);
+                            nIn += (y.cwiseAbs() - size/2).head(dim).maxCoeff() < 1e-9;
+                            centre += y/(dim + 1);
+                            isNearBody = isNearBody || (y - solids[1].pose.position).norm() < 0.1*height;
+                        }
+                        isInside = (centre.cwiseAbs() - size/2).head(dim).maxCoeff() < 0;
+                        const ElementState expected = isInside ? ElementState::Solid : nIn == dim ? ElementState::Cut : ElementState::Fluid;
+                        if (isNearBody || (cover.state[e] == ElementState::Cut && cover.cuts[cover.cutIndex[e]].volume < (1 - 1e-9)*mesh.volume[e])) continue;   // the body's
+                        wrong += cover.state[e] != expected;
+                        cuts += expected == ElementState::Cut;
+                    }
+                }
+                CHECK(halo.sum(wrong) == 0);
+                CHECK(halo.sum(cuts) > 0);
+            }
+}
+
 TEST_CASE("elements between two solids are counted and their facets belong to the nearer one")
 {
     const CoverScene scene(2, 20);

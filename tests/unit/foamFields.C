@@ -288,3 +288,34 @@ TEST_CASE("a smooth profile over several cells comes back as the plane it was ma
             CHECK(s.halo.max(worst) < 1e-3*h);
         }
 }
+
+TEST_CASE("no surface comes near nodes whose cells are all empty, as above a column little wider than a cell")
+{
+    Scene s;
+    const SimplexMesh& mesh = s.adapter.mesh;
+    const std::size_t n = mesh.dim + 1;
+    constexpr double h = 0.1, length = 4*std::sqrt(2.)*h;   // of the channel's cells; of the level's unit
+    for (const double left : {0.62, 0.68})
+        for (const double width : {0.8*h, 1.2*h, 1.7*h})
+            for (const double top : {0.43, 0.48})
+            {
+                const auto overlap = [&](double at, double low, double high) { return std::clamp(std::min(at + 0.5*h, high) - std::max(at - 0.5*h, low), 0., h)/h; };
+                std::vector<double> fraction, wet(mesh.nNodes, 0.0), alpha(mesh.nNodes);
+                for (const Foam::vector& x : s.foam.mesh().cellCentres()) fraction.push_back(overlap(x.x(), left, left + width)*overlap(x.y(), -1, top));
+                for (std::size_t c = 0; c < fraction.size(); ++c)
+                    for (int k = s.adapter.cellStart[c]; k < s.adapter.cellStart[c + 1]; ++k)
+                        for (std::size_t a = 0; a < n && fraction[c] > 1e-9; ++a) wet[mesh.elements[s.adapter.cellElements[k]*n + a]] = 1;
+                s.halo.sumToOwners(wet, 1);
+                for (int i = 0; i < mesh.nNodes; ++i)
+                {
+                    const double x = mesh.x[2*i], y = mesh.x[2*i + 1];
+                    alpha[i] = 0.25*(overlap(x - h/2, left, left + width) + overlap(x + h/2, left, left + width))*(overlap(y - h/2, -1, top) + overlap(y + h/2, -1, top));
+                }
+                reconstructSurface(s.adapter, s.halo, fraction, alpha);
+                double nearest = 1e300;
+                for (int i = 0; i < mesh.nOwned; ++i)
+                    if (wet[i] == 0) nearest = std::min(nearest, length*(0.5 - alpha[i]));
+                CAPTURE(width);
+                CHECK(-s.halo.max(-nearest) > 0.6*h);
+            }
+}

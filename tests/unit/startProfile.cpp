@@ -106,6 +106,56 @@ TEST_CASE("start profile: keeps the volume, is the same on any number of ranks")
     }
 }
 
+TEST_CASE("start profile: a plane stays one, in all directions and on moved nodes, and an edge of the liquid has none beyond")
+{
+    for (const int dim : {2, 3})
+        for (const double perturbation : {0., 0.1, 0.2})
+        {
+            const int n = 10;
+            const Scene scene(MPI_COMM_WORLD, dim, n, perturbation);
+            const auto profileOf = [&](auto distance, double liquid)
+            {
+                std::vector<double> alpha(scene.mesh.nNodes);
+                for (int i = 0; i < scene.mesh.nNodes; ++i) alpha[i] = std::clamp(0.5 + distance(&scene.mesh.x[std::size_t(i)*dim])*n/6., 0., 1.);
+                makeStartProfile(scene.mesh, scene.graph, scene.halo, scene.width, alpha, liquid);
+                return alpha;
+            };
+            for (int k = 0; k < 20; ++k)
+            {
+                const double normal[3] = {std::cos(0.3*k), std::sin(0.3*k), dim == 2 ? 0 : std::sin(1.7*k)};
+                const double length = std::hypot(normal[0], normal[1], normal[2]);
+                const auto distance = [&](const double* x)
+                {
+                    double d = 0;
+                    for (int a = 0; a < dim; ++a) d += normal[a]/length*(x[a] - 0.52);
+                    return d;
+                };
+                const std::vector<double> alpha = profileOf(distance, -1);
+                double least = 1e300, most = -1e300;
+                for (int i = 0; i < scene.mesh.nOwned; ++i)
+                {
+                    if (alpha[i] < 1e-9 || alpha[i] > 1 - 1e-6) continue;
+                    const double moved = scene.width[i]*std::log(alpha[i]/(1 - alpha[i])) - distance(&scene.mesh.x[std::size_t(i)*dim]);
+                    least = std::min(least, moved);
+                    most = std::max(most, moved);
+                }
+                CHECK(scene.halo.max(most) + scene.halo.max(-least) < 1e-8);
+            }
+            // a wedge with its edge up: the planes of its sides go on above
+            const double tilt = 0.2, top = 0.72;
+            const auto insideWedge = [&](const double* x)
+            {
+                const double down = top - x[1], aside = std::abs(x[0] - 0.51), inside = down*std::sin(tilt) - aside*std::cos(tilt);
+                return down*std::cos(tilt) + aside*std::sin(tilt) < 0 ? -std::hypot(down, aside) : inside;
+            };
+            const std::vector<double> alpha = profileOf(insideWedge, top*top*std::tan(tilt));
+            double above = 0;
+            for (int i = 0; i < scene.mesh.nOwned; ++i)
+                if (scene.mesh.x[std::size_t(i)*dim + 1] > top + 1.5/n) above = std::max(above, alpha[i]);
+            CHECK(scene.halo.max(above) < 0.2);
+        }
+}
+
 TEST_CASE("interface planes: exact for a plane surface, in all directions and on moved nodes")
 {
     for (const int dim : {2, 3})

@@ -69,6 +69,32 @@ TEST_CASE("a plate presses the water out under it, in steps of any part of an el
         }
 }
 
+TEST_CASE("a plate that nears a no-slip floor drives the water out under it as one over a slip floor does, down to a gap of an element")
+{
+    const double speed = 0.8, start = 0.2, end = 0.06;    // gaps: 4 and 1.2 elements
+    double outward[2];
+    for (const bool isNoSlip : {false, true})
+    {
+        Press press;
+        if (isNoSlip) press.patches[2] = makePatch(press.mesh, 2, BoundaryPatch::Velocity::NoSlip);
+        press.patches[2].isNoSlipWall = isNoSlip;
+        const auto run = press.plate(start + 0.085, speed, Solid::Wall::NoSlip);
+        for (int k = 0; k < 50; ++k) REQUIRE(run->step((start - end)/50/speed).isAccepted);
+        double sum = 0, n = 0;
+        const SimplexMesh& mesh = press.mesh;
+        for (int i = 0; i < mesh.nOwned; ++i)
+        {
+            if (std::abs(mesh.x[2*std::size_t(i)] - 0.65) > 1e-6 || mesh.x[2*std::size_t(i) + 1] > end) continue;
+            sum += run->fluid().state().u[2*std::size_t(i)];
+            ++n;
+        }
+        outward[isNoSlip] = press.halo.sum(sum)/press.halo.sum(n);
+        std::printf("%s floor: %.3f of speed times distance over gap\n", isNoSlip ? "no-slip" : "slip", outward[isNoSlip]/(speed*(0.65 - 0.51)/end));
+    }
+    CHECK(outward[0] == near(speed*(0.65 - 0.51)/end, 0.2));
+    CHECK(outward[1] == near(outward[0], 0.02));
+}
+
 TEST_CASE("fluid shut in a hole of an element or two: open to the pressure around")
 {
     struct Hole { double centre, width; }; // around one node; around four nodes with two whole elements between them
