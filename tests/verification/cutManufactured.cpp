@@ -96,10 +96,10 @@ TEST_CASE("Couette flow between cut cylinders, Stokes")
         CHECK(table.value(torque, 2) < 0.001);
     }
 }
-/// The torque by its size: its errors of both signs (stiff P1 layer, slip at the wall) nearly cancel, so that no order is seen between two meshes.
+/// The torque by its size: on coarse meshes its errors of both signs (stiff P1 layer, slip at the wall) nearly cancel.
 TEST_CASE("Couette flow between cut cylinders, Reynolds number 40")
 {
-    const ErrorTable table = couette("Annular Couette, mu 0.01", 1, 1e-2, {12, 24, 48, 96});
+    const ErrorTable table = couette("Annular Couette, mu 0.01", 1, 1e-2, {12, 24, 48});
     checkOrders(table);
     for (const char* torque : {"torque inner", "torque outer"})
     {
