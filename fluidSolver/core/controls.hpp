@@ -29,7 +29,7 @@ struct NumericsControls
     double tauContFactor = 1;       ///< multiplies tau_cont
     bool tauContWithTimeStep = true; ///< tau_cont = rho h^2/(12 T), T with the time step (docs/numerics.md), else rho (nu + |a| h/2)
     double tauContBulk = 0.1;       ///< share of the time step's rate 2/dt in that T in elements of one density, away from the liquid's surface
-    bool viscousResidual = false;   ///< mu lap u in the residual of SUPG, PSPG and u'
+    bool viscousResidual = true;    ///< mu lap u in the residual of SUPG, PSPG and u'
     // embedded boundary
     bool nitsche = true;            ///< false: the paper's pure penalty
     double nitscheGamma = 4;        ///< non-symmetric Nitsche: coefficient of mu/h

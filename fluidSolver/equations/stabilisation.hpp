@@ -30,7 +30,7 @@ struct ElementRates
     /// tau_cont [Pa s] of the grad-div term: rho h^2/(12 T).
     Real tauContinuity(const Real& rho, const Real& h, const Real& timeShare) const { return rho*(h*h/12*elementRate(timeShare)); }
 
-    /// Share of u' that convects (0..1): the inertial part of T. The residual of P1 lacks the viscous stress, u' is wrong where that matters, and there it
+    /// Share of u' that convects (0..1): the inertial part of T. P1 has the viscous stress only as recovered one step late, u' is wrong where that matters, and there it
     /// oscillates from step to step (lid-driven cavity at Re 100); convection is of no importance in such elements.
     Real convectingShare() const
     {

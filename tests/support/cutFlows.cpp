@@ -108,7 +108,7 @@ std::vector<Solid> FlowAroundBody::solids() const
     return solids;
 }
 
-ErrorTable errorsAroundBody(int dim, const char* title, double rho, double mu, const std::vector<int>& sizes, bool viscousResidual)
+ErrorTable errorsAroundBody(int dim, const char* title, double rho, double mu, const std::vector<int>& sizes)
 {
     usePetsc();
     ErrorTable table(title);
@@ -124,7 +124,6 @@ ErrorTable errorsAroundBody(int dim, const char* title, double rho, double mu, c
         controls.tolerance = 1e-8;
         controls.restart = 200;
         controls.maxIterations = 2000;
-        controls.viscousResidual = viscousResidual;
         ForcedFlow flow(mesh, halo, oneFluid(rho, mu), controls, body.flow());
         const std::vector<Solid> solids = body.solids();
         CoverBuilder builder(mesh, flow.graph(), halo);

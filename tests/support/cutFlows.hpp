@@ -36,7 +36,7 @@ struct FlowAroundBody
 };
 
 /// Errors of the steady flow around a disc or sphere, FlowAroundBody, in the unit square or cube with n cells a side and moved nodes. Collective.
-ErrorTable errorsAroundBody(int dim, const char* title, double rho, double mu, const std::vector<int>& sizes, bool viscousResidual = false);
+ErrorTable errorsAroundBody(int dim, const char* title, double rho, double mu, const std::vector<int>& sizes);
 
 /// Point k = 0, 1, .. of the Halton sequence in [0,1)^3 (bases 2, 3, 5).
 Vec3 haltonPoint(int k);

@@ -66,7 +66,7 @@ ExactFlow potentialFlow(int dim)
 }
 
 ErrorTable steadyErrors(int dim, const char* title, const ExactFlow& exact, double rho, double mu, const std::vector<int>& sizes,
-    double moved, bool viscousResidual)
+    double moved)
 {
     usePetsc();
     ErrorTable table(title);
@@ -79,7 +79,6 @@ ErrorTable steadyErrors(int dim, const char* title, const ExactFlow& exact, doub
         fluid.muLiquid = mu;
         NumericsControls controls;
         controls.timeOrder = 1;
-        controls.viscousResidual = viscousResidual;
         controls.tolerance = 1e-8;
         controls.restart = 200;
         controls.maxIterations = 2000;

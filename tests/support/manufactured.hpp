@@ -16,6 +16,6 @@ ExactFlow potentialFlow(int dim);
 
 /// Errors of the steady flow on the unit square or cube with n cells a side; interior nodes moved by `moved` cells. Collective.
 ErrorTable steadyErrors(int dim, const char* title, const ExactFlow& exact, double rho, double mu, const std::vector<int>& sizes,
-    double moved, bool viscousResidual = false);
+    double moved);
 
 } // namespace flotsam
