@@ -56,6 +56,7 @@ void FlowEquation::buildConstraints()
     }
     halo_.update(isEdge, 1);    // second-ring copies do not see all of their faces
     isSlipEdge_.assign(isEdge.begin(), isEdge.end());
+    findEdgeElements(slip);
     for (const NodeConstraint& c : constraints_)
         if (c.node < mesh_.nOwned) system_.constraints.push_back(c);
     nPatchConstraints_ = system_.constraints.size();

@@ -91,6 +91,7 @@ void FlowEquation::assemble(const FlowStepData& step)
         assembleElements<2>();
         assembleOpenBoundaries<2>();
         assemblePatchWalls<2>();
+        assembleEdges<2>();
         assembleGasEdge<2>();
         assembleFilms<2>();
         assembleWalls<2>();
@@ -104,6 +105,7 @@ void FlowEquation::assemble(const FlowStepData& step)
         assembleElements<3>();
         assembleOpenBoundaries<3>();
         assemblePatchWalls<3>();
+        assembleEdges<3>();
         assembleGasEdge<3>();
         assembleFilms<3>();
         assembleWalls<3>();
@@ -371,6 +373,7 @@ template<int D>
 void FlowEquation::fineScaleT(const std::vector<double>& x, std::vector<double>& result) const
 {
     if (hasWideLanes()) fineScaleWide<D>(x, result); else fineScaleIn<D, Lanes2>(x, result);
+    takeWhatWouldPass<D>(x, result);
 }
 
 void FlowEquation::fineScale(const std::vector<double>& x, std::vector<double>& result) const

@@ -5,8 +5,11 @@
 #include "algebra/flowSystem.hpp"
 #include "equations/elementLoader.hpp"
 #include "equations/rowPrefetch.hpp"
+#include "equations/slipNormals.hpp"
 #include "equations/viscousForce.hpp"
 #include "equations/volumeFlux.hpp"
+
+#include <map>
 
 namespace flotsam
 {
@@ -62,6 +65,13 @@ private:
     /// Volume flux from node a to b: conductance (p_a - p_b - hydrostatic) [m^dim/s].
     struct FilmPair { int a, b; double conductance, hydrostatic; };
 
+    /// Element over a wall that ends in a re-entrant edge: of a velocity u at corner a it sees u - Q_a u, along the wall.
+    struct EdgeElement
+    {
+        int element;
+        double across[4][9] = {};   ///< Q, dim*dim: n n of the wall by the element's share over it, at the corners on the edge; elsewhere zero
+    };
+
     void startRow(int i);
     template<int D, class Real> void addElements(const int* e, const ElementData<D, Real>& data);
     template<int D> void assembleElements();
@@ -99,6 +109,10 @@ private:
     template<int D> void assembleOpenBoundaries();
     template<int D> void assemblePatchWalls();
     template<int D> void addWallFace(const MeshPatch& faces, std::size_t f, bool isSlip, bool hasEdge);
+    void findEdgeElements(const std::map<int, SlipNormals>& slip);
+    template<int D> void assembleEdges();
+    template<int D> void addEdgeElement(const EdgeElement& edge);
+    template<int D> void takeWhatWouldPass(const std::vector<double>& x, std::vector<double>& result) const;
     template<int D> void addOpenFace(const int* nodes, const double* v, const double* first, const double* second, const double* pressure);
     template<int D> void assembleGasEdge();
     void fixGasEdge();
@@ -156,6 +170,7 @@ private:
     std::vector<double> entering_;              // nNodes, work of findWeakPressures(): volume flux into the mesh [m^dim/s]
     double gasLevel_ = 0;                       // of the gas at rest's pressure [Pa]
     std::vector<char> isSlipEdge_;              // nNodes: on a re-entrant edge of walls, see SlipNormals
+    std::vector<EdgeElement> edgeElements_;
     std::vector<int> restingNodes_;             // of no-slip walls that share them with a patch of prescribed velocity: the wall wins
     std::size_t nPatchConstraints_ = 0;         // of the system's, the first ones; then those of shut pockets
     const bool hasInsides_;                     // see algebra/needlessWork.hpp

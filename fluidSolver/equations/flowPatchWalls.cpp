@@ -20,14 +20,6 @@ namespace flotsam
 namespace
 {
 
-/// Pa s/m, factor of the normal velocities' product. outflow: velocity into the wall, mean over the face [m/s]. At rest as every wall holds it.
-template<int D>
-double edgeHold(const ElementData<D>& e, double held, double h, double dt, double outflow)
-{
-    if (outflow == 0) return held;
-    return outflow > 0 ? e.rho*(h/dt + std::sqrt(squared<D>(e.advection))) : 0;
-}
-
 /// Coefficients of the tangential velocity on a no-slip patch. speed: along the wall, mean over the face [m/s]; height: of the element over it [m].
 /// Where the elements resolve the layer the form is symmetric, and the fluid above the wall does not feel that the wall slips a little; it needs a gamma above 2 D.
 /// Where they do not, less must hold: what is held there is taken from fluid whose layer is far thinner than the element; the non-symmetric form is stable with it,
@@ -110,7 +102,7 @@ void FlowEquation::addWallFace(const MeshPatch& faces, std::size_t f, bool isSli
     const int* nodes = &mesh_.elements[std::size_t(e)*N];
     const WallFace<D> face(mesh_, step_.cover, faces, f, nodal_.advection);
     WallCoefficients c = nitscheCoefficients(data, isSlip, controls_.nitscheGamma, mesh_.h[e], step_.time.dt, 0);   // no volume passes: nothing flows in
-    c.normal = hasEdge ? edgeHold(data, c.normal, mesh_.h[e], step_.time.dt, face.outflow) : 0;
+    if (!hasEdge || face.outflow < 0) c.normal = 0;
     if (!isSlip) holdTangentially(data, controls_, face.speed, face.height, step_.cover && step_.cover->state[e] == ElementState::Cut, c);
     const WallTerms<D> terms(c, face.normal, data.gradN);
     double m[B*B];

@@ -59,6 +59,18 @@ bool SlipNormals::hasEdge() const
     return std::any_of(walls_.begin(), walls_.end(), [&](const Wall& wall) { return isAtEdge(wall); });
 }
 
+std::vector<std::array<double, 3>> SlipNormals::edgeNormals() const
+{
+    std::vector<Vector> normals;
+    for (const Wall& wall : walls_)
+    {
+        if (!isAtEdge(wall)) continue;
+        normals.emplace_back();
+        add(normals.back(), 1/length(wall.area), wall.area);
+    }
+    return normals;
+}
+
 NodeConstraint SlipNormals::constraint(int node, int dim) const
 {
     NodeConstraint c{};

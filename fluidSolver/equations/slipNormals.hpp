@@ -22,6 +22,9 @@ public:
     /// Whether walls meet in a re-entrant edge here.
     bool hasEdge() const;
 
+    /// Unit normals, out of the fluid, of the walls that meet in a re-entrant edge here.
+    std::vector<std::array<double, 3>> edgeNormals() const;
+
     /// Orthonormal directions of the walls that are not at a re-entrant edge.
     NodeConstraint constraint(int node, int dim) const;
 

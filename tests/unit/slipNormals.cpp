@@ -49,6 +49,11 @@ TEST_CASE("the rim of a box holds nothing, its foot only what the floor holds")
     const NodeConstraint foot = normalsOf({floor, frontUp, sideUp}, 3).constraint(0, 3);
     CHECK(foot.nDirections == 1);
     CHECK(foot.direction[0][2] == near(-1, 1e-14));
+    // of the three walls at the foot the floor is at no re-entrant edge
+    const std::vector<std::array<double, 3>> atEdge = normalsOf({floor, Face{{-2, 0, 0}, {0, -1, 1}}, sideUp}, 3).edgeNormals();
+    REQUIRE(atEdge.size() == 2);
+    CHECK(atEdge[0] == std::array<double, 3>{-1, 0, 0});
+    CHECK(atEdge[1] == std::array<double, 3>{0, -1, 0});
 }
 
 TEST_CASE("faces of one smooth wall have one normal, its sides too")
