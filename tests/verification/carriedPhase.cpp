@@ -2,7 +2,6 @@
 /// A phase of the same density and viscosity weighs nothing: the transport's fluxes, means over the step, do not convect momentum where the density does not vary.
 #include "equations/fluid.hpp"
 #include "support/flowCases.hpp"
-#include "support/near.hpp"
 
 #include <doctest/doctest.h>
 

@@ -91,7 +91,7 @@ TEST_CASE("a plate that nears a no-slip floor drives the water out under it as o
         outward[isNoSlip] = press.halo.sum(sum)/press.halo.sum(n);
         std::printf("%s floor: %.3f of speed times distance over gap\n", isNoSlip ? "no-slip" : "slip", outward[isNoSlip]/(speed*(0.65 - 0.51)/end));
     }
-    CHECK(outward[0] == near(speed*(0.65 - 0.51)/end, 0.2));
+    CHECK(outward[0] == near(speed*(0.65 - 0.51)/end, 0.05));
     CHECK(outward[1] == near(outward[0], 0.02));
 }
 
