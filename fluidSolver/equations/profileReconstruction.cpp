@@ -28,6 +28,7 @@ double roofFactorOf(double coherence)
 
 /// Cells with less of either phase carry too little for the fit of a film to pay.
 constexpr double leastOfFilm = 0.03;
+constexpr double leastOfBent = 0.01;        // with less of one phase a front stays straight: hardly anything crosses the cell's faces
 
 constexpr int maxRoofParts = 256;
 
@@ -241,15 +242,19 @@ void ProfileReconstruction::build(const std::vector<double>& alpha, const std::v
         std::fill_n(p.bend, 6, 0.);
         const double coherence = length/coherence_[i];
         const bool isCoherent = coherence >= coherenceLimit;
-        const bool mayBeFilm = std::min(alpha[i], 1 - alpha[i]) >= leastOfFilm;
+        const double lesser = std::min(alpha[i], 1 - alpha[i]);
+        const bool isBent = isCoherent && lesser >= leastOfBent, mayBeFilm = lesser >= leastOfFilm;
         Ring ring;
-        if (isCoherent || mayBeFilm)
+        if (isBent || mayBeFilm)
         {
             findRing<dim>(i, cover, ring);
-            if (isCoherent)
-            {
-                bendFront<dim>(ring, alpha);
-            }
+        }
+        if (isBent)
+        {
+            bendFront<dim>(ring, alpha);
+        }
+        if (isCoherent || mayBeFilm)
+        {
             fillFront<dim>(i, alpha[i]);
         }
         if (mayBeFilm && fitFilm<dim>(ring, alpha, isCoherent, cover))
