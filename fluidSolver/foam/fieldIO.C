@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam/fieldIO.H"
+#include "equations/linearExtension.hpp"
 #include "equations/liquidShares.hpp"
 #include "equations/materials.hpp"
 #include "foam/boundaryConditions.H"
@@ -126,6 +127,8 @@ void FoamFields::updateNodal(const FlowState& state, const Cover* cover, const s
 {
     const SimplexMesh& mesh = adapter_.mesh;
     nodal_.assign(static_cast<std::size_t>(mesh.nNodes)*nodalWidth, 0.0);
+    std::vector<double> pressure(state.p.begin(), state.p.begin() + mesh.nNodes);
+    if (cover) extendLinearly(mesh, halo_, *cover, pressure);
     for (int i = 0; i < mesh.nNodes; ++i)
     {
         double* v = &nodal_[static_cast<std::size_t>(i)*nodalWidth];
@@ -139,8 +142,8 @@ void FoamFields::updateNodal(const FlowState& state, const Cover* cover, const s
         }
         v[Alpha] = state.alpha.empty() ? 1 : state.alpha[i];
         const double rho = density(controls_.fluid, controls_.numerics, v[Alpha]);
-        v[P] = state.p[i]/pressureScale_;
-        v[Prgh] = (state.p[i] - rho*gravityPotential(controls_, mesh, i))/pressureScale_;
+        v[P] = pressure[i]/pressureScale_;
+        v[Prgh] = (pressure[i] - rho*gravityPotential(controls_, mesh, i))/pressureScale_;
     }
 }
 
