@@ -12,9 +12,9 @@ using namespace flotsam;
 namespace
 {
 
-double error(int n, double period)
+double error(int n, double period, int seed)
 {
-    TransportScene scene(MPI_COMM_WORLD, 2, n, defaultWidth, vortexField());
+    TransportScene scene(MPI_COMM_WORLD, 2, n, defaultWidth, vortexField(), seed);
     scene.fill(disc({0.5, 0.75, 0}, 0.15, 2));
     const TransportResult r = runPeriod(scene, period, 0.5, [period](double t) { return std::cos(M_PI*t/period); });
     CHECK(std::abs(r.massError) < 1e-12);
@@ -24,14 +24,16 @@ double error(int n, double period)
     return r.error;
 }
 
-/// On 32, 64 and 128 cells a side: each error at most its bound.
-ErrorTable errors(double period, const std::array<double, 3>& bounds)
+/// On 32, 64 and 128 cells a side, means over so many sets of moved nodes: each error at most its bound.
+ErrorTable errors(double period, const std::array<double, 3>& bounds, int nMeshes = 1)
 {
     ErrorTable table("Reversed vortex, T = " + std::to_string(int(period)));
     for (int k = 0; k < 3; ++k)
     {
         const int n = 32 << k;
-        table.add(1.0/n, {{"shape", error(n, period)}});
+        double mean = 0;
+        for (int seed = 0; seed < nMeshes; ++seed) mean += error(n, period, seed)/nMeshes;
+        table.add(1.0/n, {{"shape", mean}});
         CHECK(table.value("shape", k) < bounds[k]);
     }
     table.print();
@@ -46,9 +48,10 @@ TEST_CASE("reversed vortex, period 2")
     CHECK(table.leastOrder("shape") > 1.85);
 }
 
+/// Means: on 64 cells the error of single meshes lies between 0.0198 and 0.0237, and with it the order between 1.7 and 2.
 TEST_CASE("reversed vortex, period 4")
 {
-    const ErrorTable table = errors(4, {0.081, 0.0225, 0.0066});
+    const ErrorTable table = errors(4, {0.082, 0.0219, 0.0065}, 3);
     CHECK(table.leastOrder("shape") > 1.7);
 }
 
