@@ -12,6 +12,9 @@ flotsam_test(viscousForce unit SOURCES unit/viscousForce.cpp LIBRARIES flotsam_e
 flotsam_test(openBoundary unit SOURCES unit/openBoundary.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(profileKeeping unit SOURCES unit/profileKeeping.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(wallLaw unit SOURCES unit/wallLaw.cpp LIBRARIES flotsam_equations flotsam_test_support)
+flotsam_test(layerSeparation unit SOURCES unit/layerSeparation.cpp LIBRARIES flotsam_equations)
+flotsam_test(bluffBody verification SOURCES verification/bluffBody.cpp
+  LIBRARIES flotsam_equations flotsam_test_support)
 flotsam_test(slipNormals unit SOURCES unit/slipNormals.cpp LIBRARIES flotsam_equations)
 flotsam_test(nodeInertia unit SOURCES unit/nodeInertia.cpp LIBRARIES flotsam_transport_support)
 flotsam_test(elementLanes unit SOURCES unit/elementLanes.cpp LIBRARIES flotsam_transport_support)

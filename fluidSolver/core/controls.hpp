@@ -33,6 +33,7 @@ struct NumericsControls
     // embedded boundary
     bool nitsche = true;            ///< false: the paper's pure penalty
     double nitscheGamma = 4;        ///< non-symmetric Nitsche: coefficient of mu/h
+    double separation = 0.5;        ///< no-slip solids: what they take where an unresolved stream along them slows down, over what the pressure takes
     double wallGamma = 16;          ///< the same on no-slip patches whose layer is resolved; 0: their velocity is prescribed at the nodes
     bool wallLaw = false;           ///< on no-slip patches at least the traction of a turbulent layer
     double wallRoughness = 0;       ///< sand roughness in the wall law [m]

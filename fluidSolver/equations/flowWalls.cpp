@@ -3,6 +3,7 @@
 #include "equations/elementLoader.hpp"
 #include "equations/facetGroups.hpp"
 #include "equations/flowEquation.hpp"
+#include "equations/layerSeparation.hpp"
 #include "equations/rigidCoupling.hpp"
 #include "equations/wallTerms.hpp"
 
@@ -39,6 +40,25 @@ struct FacetMotion
     }
 };
 
+/// separationHold() in a cut element, by velocities relative to its solid.
+template<int D>
+double holdOfSolid(const ElementData<D>& e, const int* nodes, const RigidArm<D>* arm, const double* q, const NodalData& nodal, double share, double h)
+{
+    double mean[D], relative[(D + 1)*D];
+    std::copy_n(e.advection, D, mean);
+    for (int a = 0; a <= D; ++a)
+    {
+        double ubar[D];
+        arm[a].velocity(q, ubar);
+        for (int d = 0; d < D; ++d)
+        {
+            relative[a*D + d] = nodal.advection[std::size_t(nodes[a])*D + d] - ubar[d];
+            mean[d] -= ubar[d]/(D + 1);
+        }
+    }
+    return separationHold<D>(share, e.rho, e.mu, h, mean, relative, e.gradN);
+}
+
 } // namespace
 
 /// One facet group's terms. q: motion of its solid; coupling: of its solid.
@@ -60,6 +80,8 @@ void FlowEquation::addFacetGroup(const FacetGroup<D>& group, const Solid& solid,
     const bool isSlip = solid.wall == Solid::Wall::Slip;
     WallCoefficients c = controls_.nitsche ? nitscheCoefficients(data, isSlip, controls_.nitscheGamma, mesh_.h[group.element], step_.time.dt, motion.slip)
                                            : penaltyCoefficients(isSlip, controls_.penalty);
+    if (controls_.nitsche && !isSlip && controls_.separation > 0)
+        c.tangential = std::max(c.tangential, holdOfSolid(data, nodes, arm, q, nodal_, controls_.separation, mesh_.h[group.element]));
     c.convection = 0.5*motion.density*motion.wall;
     const WallTerms<D> terms(c, group.normal, data.gradN);
     RigidBlocks<D> rigid;

@@ -21,13 +21,59 @@ constexpr scalar acrossLayers = 0.5;
 /// Of the second horizontal axis in the direction within a layer: far from 0 and 1, so that moved nodes do not change which corner of a face comes first.
 constexpr scalar second = 0.6;
 
+/// Cosine of the angle between the edges on both sides of a point from which they count as one edge that the point divides.
+constexpr scalar straight = 0.9;
+
+bool leadsAcross(const polyMesh& mesh, int vertical, label i, label j)
+{
+    const vector edge = mesh.points()[j] - mesh.points()[i];
+    return mag(edge[vertical]) > acrossLayers*mag(edge);
+}
+
+/// Does a face have the edges p-v and v-n as one edge across the layers, divided at v (a hanging point, of finer cells beside it)?
+bool isDivided(const polyMesh& mesh, int vertical, label p, label v, label n)
+{
+    const pointField& x = mesh.points();
+    const vector in = x[v] - x[p], out = x[n] - x[v];
+    return leadsAcross(mesh, vertical, p, v) && leadsAcross(mesh, vertical, v, n) && (in & out) > straight*mag(in)*mag(out);
+}
+
+/// Edges along which no layers can be counted: they lead from finer cells, with twice the layers, into coarser ones. These are the edges of cells
+/// with a divided edge that meet this edge.
+boolList findStepsOfSize(const polyMesh& mesh, int vertical)
+{
+    boolList isStep(mesh.nEdges(), false);
+    std::vector<label> chain;
+    forAll(mesh.cells(), c)
+    {
+        chain.clear();
+        for (const label facei : mesh.cells()[c])
+        {
+            const face& f = mesh.faces()[facei];
+            forAll(f, k)
+                if (isDivided(mesh, vertical, f.prevLabel(k), f[k], f.nextLabel(k))) chain.insert(chain.end(), {f.prevLabel(k), f[k], f.nextLabel(k)});
+        }
+        if (chain.empty()) continue;
+        const auto isInChain = [&](label i) { return std::find(chain.begin(), chain.end(), i) != chain.end(); };
+        for (const label e : mesh.cellEdges()[c])
+        {
+            const edge& ends = mesh.edges()[e];
+            if (isInChain(ends[0]) != isInChain(ends[1])) isStep[e] = true;
+        }
+    }
+    syncTools::syncEdgeList(mesh, isStep, orEqOp<bool>(), false);
+    return isStep;
+}
+
 /// Parity of the number of layers between a point and the first one, on shortest paths along edges: each point follows the neighbour of the
-/// smallest key among those that were reached before it, on any number of processes the same. Parts of the mesh that are not joined begin anew.
+/// smallest key among those that were reached before it, on any number of processes the same. Parts of the mesh that are not joined, or only by steps of the cells'
+/// size, begin anew.
 class LayerParity
 {
 public:
     LayerParity(const polyMesh& mesh, const labelList& keys, int vertical)
-    :   mesh_(mesh), keys_(keys), vertical_(vertical), parity_(mesh.nPoints(), -1), offer_(mesh.nPoints(), labelMax)
+    :   mesh_(mesh), keys_(keys), vertical_(vertical), isStep_(findStepsOfSize(mesh, vertical)), parity_(mesh.nPoints(), -1),
+        offer_(mesh.nPoints(), labelMax)
     {
         while (startPart()) while (advance()) {}
     }
@@ -57,11 +103,12 @@ private:
     {
         std::vector<label> touched;
         for (const label i : front_)
-            for (const label j : mesh_.pointPoints()[i])
+            for (const label e : mesh_.pointEdges()[i])
             {
-                if (parity_[j] >= 0) continue;
+                const label j = mesh_.edges()[e].otherVertex(i);
+                if (parity_[j] >= 0 || isStep_[e]) continue;
                 if (offer_[j] == labelMax) touched.push_back(j);
-                offer_[j] = min(offer_[j], 2*keys_[i] + (parity_[i] ^ label(leadsAcross(i, j))));
+                offer_[j] = min(offer_[j], 2*keys_[i] + (parity_[i] ^ label(leadsAcross(mesh_, vertical_, i, j))));
             }
         if (Pstream::parRun())
         {
@@ -80,15 +127,10 @@ private:
         return returnReduce(!front_.empty(), orOp<bool>());
     }
 
-    bool leadsAcross(label i, label j) const
-    {
-        const vector edge = mesh_.points()[j] - mesh_.points()[i];
-        return mag(edge[vertical_]) > acrossLayers*mag(edge);
-    }
-
     const polyMesh& mesh_;
     const labelList& keys_;
     const int vertical_;
+    const boolList isStep_;
     labelList parity_, offer_;      // offer: twice the key it comes from, and the parity
     std::vector<label> front_;
 };

@@ -19,12 +19,9 @@ SurfaceCells::SurfaceCells(const MeshAdapter& adapter, const Halo& halo, const s
 {
     for (std::size_t c = 0; c < fraction.size(); ++c)
         if (kindOf(fraction[c]) == Partly) add(int(c), fraction[c]);
-    if (halo.any(!cut_.empty()))
-    {
-        const std::vector<double> touches = touchingCells(fraction);
-        findProfiles(touches);
-        addCellsAtFaces(fraction, touches);
-    }
+    const std::vector<double> touches = touchingCells(fraction);
+    findProfiles(touches);
+    addCellsAtFaces(fraction, touches);
     for (const SurfaceCell& p : cut_) length_ = std::max(length_, 4*diagonal(p));
     length_ = halo.max(length_);
 }
