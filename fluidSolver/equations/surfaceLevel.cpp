@@ -13,9 +13,9 @@ namespace flotsam
 namespace
 {
 
-/// As far out as the transport keeps the profile: nodes of cut elements lie up to 1.1 h from the surface on slanted triangles, 1.7 h in
+/// As far out as nodes of cut elements lie: up to 1.1 h from the surface on slanted triangles, 1.7 h in tetrahedra, farther beside smaller elements, whose size is in the
 /// tetrahedra, and a level cut off there tilts the element's plane.
-constexpr double lowest = 1e-4, highest = 1 - lowest;
+constexpr double lowest = 1e-5, highest = 1 - lowest;
 
 constexpr int mostRepeats = 12, patience = 3;
 constexpr double stubborn = 0.7;        // change over the last one from which a node does not converge (sheets, corners): it is not waited for

@@ -3,6 +3,7 @@
 # makeMeshCases.sh FOLDER: meshes for the tests of the mesh adapter, each whole (NAME.np1) and decomposed (NAME.np2, NAME.np4).
 #   obstacle   2D, empty z: a dam-break tank with an obstacle, five graded blocks
 #   upright    2D, empty y: one block in the x-z plane, locally refined (cells with hanging points)
+#   boxed      2D, boxed3D 3D: a block of even cells, those in a box in its middle halved in all directions (refineMesh)
 #   skewed     3D: two graded, skewed blocks
 #   snapped    3D: polyhedra of snappyHexMesh around a rotated box, its edges blunt (folds, concave faces)
 #   bare       skewed without the files that tell the numbers of the undecomposed mesh
@@ -88,6 +89,31 @@ EOF
 run upright.np1 topoSet
 run upright.np1 refineMesh -overwrite
 decompose upright "2 1 1" "2 1 2"
+
+halve() {       # case, box, directions
+    { header; echo "actions ({ name c0; type cellSet; action new; source boxToCell; sourceInfo { box $2; } });"; } > "$1/system/topoSetDict"
+    { header; echo "set c0; coordinateSystem global; globalCoeffs { tan1 (1 0 0); tan2 (0 1 0); } directions ($3); useHexTopology no; geometricCut no; writeMesh no;"; } > "$1/system/refineMeshDict"
+    run "$1" topoSet
+    run "$1" refineMesh -overwrite
+}
+
+evenBlock() {   # cells, type of the ends in z
+    cat << EOF
+vertices ((0 0 0) (1 0 0) (1 1 0) (0 1 0) (0 0 1) (1 0 1) (1 1 1) (0 1 1));
+blocks (hex (0 1 2 3 4 5 6 7) ($1) simpleGrading (1 1 1));
+boundary
+(
+    sides { type patch; faces ((0 4 7 3) (1 2 6 5) (0 1 5 4) (3 7 6 2)); }
+    ends { type $2; faces ((0 3 2 1) (4 5 6 7)); }
+);
+EOF
+}
+newCase boxed < <(evenBlock "16 16 1" empty)
+halve boxed.np1 "(0.25 0.25 -1) (0.75 0.75 2)" "tan1 tan2"
+decompose boxed "2 1 1" "2 2 1"
+newCase boxed3D < <(evenBlock "8 8 8" patch)
+halve boxed3D.np1 "(0.25 0.25 0.25) (0.75 0.75 0.75)" "tan1 tan2 normal"
+decompose boxed3D "2 1 1" "2 2 1"
 
 newCase skewed << 'EOF'
 vertices ((0 0 0) (1 0.1 0) (0.9 0.8 0) (0 0.7 0.1) (0 0 0.5) (1.1 0 0.6) (1 0.8 0.7) (0.1 0.7 0.5) (2 0 0.1) (2 0.9 0) (2.1 0.1 0.5) (2 0.8 0.6));
