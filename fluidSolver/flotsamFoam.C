@@ -183,8 +183,8 @@ void checkTimeStep(double wanted, const TimeControls& time, const CoupledStep& s
 }
 
 /// After a step: the fields where someone looks at them, and at a written time the state to restart from. A stop signal makes it the last step.
-/// timeStep: before it was cut to meet that time.
-void write(Foam::Time& runTime, const Halo& halo, CoupledStep& step, FoamFields& fields, RunOutput& output, PhaseTimers& timers, double timeStep)
+/// timeStep: before it was cut to meet that time. Returns whether a signal asked to stop.
+bool write(Foam::Time& runTime, const Halo& halo, CoupledStep& step, FoamFields& fields, RunOutput& output, PhaseTimers& timers, double timeStep)
 {
     const bool isStopping = halo.any(stopRequested());
     const bool writeNow = halo.any(takeWriteRequest());
@@ -201,11 +201,13 @@ void write(Foam::Time& runTime, const Halo& halo, CoupledStep& step, FoamFields&
         output.writeState(step, timeStep);
         step.forgetUnwritten();
     }
+    return isStopping;
 }
 
 enum class Task { Run, Check, WeighCells };
 
-void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
+/// False: a signal has ended the run before its time.
+bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
 {
     PetscSession petsc(MPI_COMM_WORLD);
     checkProcesses();
@@ -226,7 +228,7 @@ void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         writeNumerics(Foam::Info, controls.numerics);
     }
     if (task == Task::WeighCells) weighCells(mesh, adapter, halo, bodies);
-    if (task != Task::Run) return;
+    if (task != Task::Run) return true;
 
     const DemSetup dem = makeDemSetup(bodies, controls.numerics.demTimeStep);
     CoupledStep step(adapter.mesh, halo, controls.fluid, controls.numerics, boundary, makeScene(bodies, gravity),
@@ -241,6 +243,7 @@ void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     TimeControls time = controls.time;
     if (!runTime.run())
         Foam::Info<< "Nothing to do: the run is at " << runTime.timeName() << " s, endTime of system/controlDict is " << runTime.endTime().value() << " s" << Foam::endl;
+    bool isComplete = true;
     double dt = output.timeStep() > 0 ? output.timeStep() : std::min(runTime.deltaTValue(), time.maxDeltaT)/growthLimit;
     while (runTime.run())
     {
@@ -258,9 +261,14 @@ void run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         step.fluid().state().time = runTime.value(); // OpenFOAM's clock, to the last digit
 
         output.record(step, result, limit, rates*used);
-        write(runTime, halo, step, fields, output, timers, dt);
+        const double endTime = runTime.endTime().value(); // a signal changes it
+        if (write(runTime, halo, step, fields, output, timers, dt)) isComplete = runTime.value() > endTime - 0.5*used;
     }
     output.end(step);
+    if (!isComplete)
+        Foam::Info<< "Stopped by a signal at " << runTime.timeName() << " s, before endTime. The state is written; the run goes on from it with startFrom latestTime\n"
+            << Foam::endl;
+    return isComplete;
 }
 
 } // namespace
@@ -281,18 +289,19 @@ int main(int argc, char* argv[])
 
     try
     {
+        flotsam::checkWriteInterval(args.rootPath()/args.globalCaseName()/"system"/Foam::Time::controlDictName);
         Foam::Time runTime(Foam::Time::controlDictName, args);
         Foam::fvMesh mesh
         (
             Foam::IOobject(Foam::fvMesh::defaultRegion, runTime.timeName(), runTime, Foam::IOobject::MUST_READ)
         );
         using flotsam::Task;
-        flotsam::run(runTime, mesh, args.found("dry-run") ? Task::Check : args.found("cell-cost") ? Task::WeighCells : Task::Run);
+        if (flotsam::run(runTime, mesh, args.found("dry-run") ? Task::Check : args.found("cell-cost") ? Task::WeighCells : Task::Run))
+            Foam::Info<< "End\n" << Foam::endl;
     }
     catch (const std::exception& error)
     {
         FatalErrorInFunction << error.what() << Foam::exit(Foam::FatalError);
     }
-    Foam::Info<< "End\n" << Foam::endl;
     return 0;
 }

@@ -79,6 +79,20 @@ void checkPlanar(const BodyGroup& group, const BodyDefinition& body, const Scene
             " is ", extent, " m, the mesh's ", frame.thickness, " m.\n    Use a box or cylinder of that length along ", "xyz"[frame.planeAxis], "."));
 }
 
+/// In a 2D mesh a body moves in its plane and turns across it.
+void checkPlanarMotion(const Foam::dictionary& dict, const BodyDefinition& body, const SceneFrame& frame)
+{
+    if (!frame.isPlanar) return;
+    for (int k = 0; k < 3; ++k)
+    {
+        const bool isAcross = k == frame.planeAxis;
+        const double found = isAcross ? body.motion.velocity[k] : body.motion.angularVelocity[k];
+        if (found == 0) continue;
+        failIn(dict, text("2D mesh, one cell along ", "xyz"[frame.planeAxis], ": ", isAcross ? "velocity" : "angularVelocity", " of body ", body.name, " along ", "xyz"[k], " is ",
+            found, "; allowed: 0."));
+    }
+}
+
 /// Of a body that is not there at the start with what is fixed alone: whether its place is free is seen when it comes in.
 std::optional<Conflict> conflictOf(const BodyGroup& group, const BodyDefinition& body, const Obstacles& obstacles, double minGap)
 {
@@ -98,6 +112,7 @@ BodyDefinition member(const BodyGroup& group, const SceneFrame& frame, const std
     body.motion = {readVec3Or(dict, "velocity", Vec3::Zero()), readVec3Or(dict, "angularVelocity", Vec3::Zero())};
     body.releaseTime = readNumberOr(dict, "releaseTime", 0, notNegative);
     checkPlanar(group, body, frame);
+    checkPlanarMotion(dict, body, frame);
     return body;
 }
 

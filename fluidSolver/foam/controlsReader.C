@@ -2,6 +2,7 @@
 #include "foam/controlsReader.H"
 #include "foam/dictionaryChecks.H"
 
+#include "IFstream.H"
 #include "IOdictionary.H"
 #include "OSspecific.H"
 #include "dimensionedTypes.H"
@@ -288,6 +289,16 @@ TimeControls readTimeControls(const Foam::dictionary& controlDict)
     if (time.minDeltaT > time.maxDeltaT)
         failIn(controlDict, text("minDeltaT ", time.minDeltaT, " is larger than maxDeltaT ", time.maxDeltaT, "."));
     return time;
+}
+
+void checkWriteInterval(const Foam::fileName& controlDict)
+{
+    Foam::IFstream file(controlDict);
+    if (!file.good()) return;   // Time says what is missing
+    Foam::dictionary dict;
+    dict.name() = controlDict;
+    dict.read(file);
+    readNumberOr(dict, "writeInterval", 1, positive);
 }
 
 CaseControls readCaseControls(const Foam::Time& runTime)

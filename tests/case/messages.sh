@@ -55,6 +55,9 @@ refused openStl 'mkdir -p constant/triSurface
         > constant/triSurface/open.stl
     sed -i "s/type box; size (0.02 0.02 0.05);/type stl; file \"open.stl\";/" constant/bodies' \
     open.stl
+refused writeInterval 'setEntry system/controlDict writeInterval 0' controlDict writeInterval 0
+refused twoAcross 'sed -i "s/density/velocity (0.1 0 0.2); density/" constant/bodies' bodies '2D mesh' velocity bar 0.2 'allowed: 0'
+refused twoTurn 'sed -i "s/density/angularVelocity (1 0 0); density/" constant/bodies' bodies '2D mesh' angularVelocity bar 'along x is 1'
 refused twoShort 'sed -i "s/size (0.02 0.02 0.05)/size (0.02 0.02 0.03)/" constant/bodies' bar 'front to back'
 
 rm -rf pen && cp -r good pen

@@ -42,6 +42,7 @@ for signal in TERM INT; do
     signalled $signal flotsamFoam || fail "exit code $? after SIG$signal: $(tail -n 20 log.stopped)"
     last=$(grep -E "$isStep" log.stopped | tail -n 1 | awk '{print $2}')
     [ -f "$last/flotsamState.h5" ] && [ -f "$last/U" ] || fail "nothing was written at the last step, time $last: $(ls)"
+    grep -q '^Stopped by a signal' log.stopped && ! grep -q '^End' log.stopped || fail "the log does not say that the run was stopped: $(tail -n 20 log.stopped)"
     goesOn "$last" flotsamFoam
     cd ..
 done

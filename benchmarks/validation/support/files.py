@@ -80,34 +80,6 @@ boundary
 );""")}
 
 
-REFINEMENT = "system/refinement{}/{}"      # files of one level: cells of the box are halved, levels follow one another
-
-
-def refinement(boxes, directions="tan1 tan2"):
-    """Dictionaries of topoSet and refineMesh: cells with their centres in each box in turn are halved along the directions, tan1, tan2, normal being x, y, z.
-    boxes: ((x, y, z), (x, y, z)) each."""
-    files = {}
-    for level, (low, high) in enumerate(boxes):
-        corners = " ".join("(" + " ".join(f"{c:.9g}" for c in corner) + ")" for corner in (low, high))
-        files[REFINEMENT.format(level, "topoSetDict")] = dictionary(
-            "topoSetDict", f"actions ({{ name fine; type cellSet; action new; source boxToCell; sourceInfo {{ box {corners}; }} }});")
-        files[REFINEMENT.format(level, "refineMeshDict")] = dictionary("refineMeshDict", f"""set             fine;
-coordinateSystem global;
-globalCoeffs    {{ tan1 (1 0 0); tan2 (0 1 0); }}
-directions      ({directions});
-useHexTopology  no;
-geometricCut    no;
-writeMesh       no;""")
-    return files
-
-
-def refine(levels, do):
-    """After blockMesh, in prepare()."""
-    for level in range(levels):
-        do("topoSet", "-dict", REFINEMENT.format(level, "topoSetDict"))
-        do("refineMesh", "-dict", REFINEMENT.format(level, "refineMeshDict"), "-overwrite")
-
-
 # --- fields, properties -----------------------------------------------------------------------------------------------
 
 FIELDS = {"U": ("volVectorField", "[0 1 -1 0 0 0 0]", "(0 0 0)"), "p": ("volScalarField", "[1 -1 -2 0 0 0 0]", "0"),

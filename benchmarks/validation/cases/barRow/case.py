@@ -2,10 +2,10 @@
 """Row of round bars across a stream, as in a rack: drag of separated flow at a Reynolds number of 1e4. N: elements a diameter."""
 import numpy as np
 
-from runner import foam
+from runner import foam, refinement
 from runner.cases import Run
 from support.compare import relative, small
-from support.files import blockMesh, bodies, control, even, field, fixed, merged, oneFluid, refine, refinement
+from support.files import blockMesh, bodies, control, even, field, fixed, merged, oneFluid
 
 SOURCE = "Kirschmer 1926"
 DENSITY, NU = 1000, 1e-6
@@ -39,7 +39,7 @@ def files(run, _folder):
     return merged(
         blockMesh(even(-upstream * h, downstream * h, upstream + downstream), even(-pitch / 2, pitch / 2, round(pitch / h)), even(0, 1, 1),
                   {"inlet": ("patch", "x-"), "outlet": ("patch", "x+"), "walls": ("wall", "y- y+"), "frontAndBack": ("empty", "z- z+")}),
-        refinement(boxes[:_levels(run)]),
+        refinement.dictionaries(boxes[:_levels(run)]),
         field("U", {"inlet": fixed(f"({speed} 0 0)"), "outlet": "type inletOutlet; inletValue uniform (0 0 0); value uniform (0 0 0);", "walls": "slip",
                     "frontAndBack": "empty"}, f"({speed} 0 0)"),
         field("p", {"inlet": "zeroGradient", "outlet": fixed(0), "walls": "zeroGradient", "frontAndBack": "empty"}), oneFluid(NU, DENSITY),
@@ -53,7 +53,7 @@ def parameters(_run):
 
 def prepare(run, do):
     do("blockMesh")
-    refine(_levels(run), do)
+    refinement.refine(_levels(run), do)
 
 
 def _kirschmer(diameter, pitch):
