@@ -57,6 +57,9 @@ int cornerOf(const SimplexMesh& mesh, const InteriorFace& face, int side)
     return static_cast<int>(std::find(nodes, nodes + mesh.dim + 1, face.opposite[side]) - nodes);
 }
 
+/// Of a structure's size: distance of a face from the mesh's boundary, or of a node from the face, that is none.
+constexpr double flush = 1e-9;
+
 } // namespace
 
 CoverBuilder::CoverBuilder(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo)
@@ -119,6 +122,36 @@ bool CoverBuilder::isSharp(const Solid& solid) const
     return true;
 }
 
+/// Faces of a structure at rest that lie beyond the mesh or on its boundary, as bits: the foot of a pier that stands on the bed. The cut must not know them: a node of the
+/// bed would be as near to the surface as the pier reaches below the bed, and the linear cut would let water under the foot. Of a moving structure they
+/// are known, as what they sweep must not jump. Distances from faces are convex: the corners of what the mesh's box and the structure's have in common tell.
+unsigned CoverBuilder::facesBeyond(const Solid& solid) const
+{
+    double distances[maxFaces];
+    if (solid.kind != Solid::Kind::Fixed || solid.shape->faceDistances(Vec3::Zero(), distances) == 0) return 0;
+    auto [low, high] = solid.spaceBounds();
+    const double size = (high - low).norm(), tolerance = flush * size;
+    low.array() -= 0.01 * size; // beyond the structure's own faces
+    high.array() += 0.01 * size;
+    for (int d = 0; d < 3; ++d)
+    {
+        const int k = mesh_.axes[d];
+        low[k] = d < mesh_.dim ? std::max(low[k], lower_[d]) : mesh_.planeOffset;
+        high[k] = d < mesh_.dim ? std::min(high[k], upper_[d]) : mesh_.planeOffset;
+        if (low[k] > high[k]) return 0;
+    }
+    unsigned beyond = ~0u;
+    for (int corner = 0; corner < 8; ++corner)
+    {
+        const Vec3 x(corner & 1 ? low[0] : high[0], corner & 2 ? low[1] : high[1], corner & 4 ? low[2] : high[2]);
+        const int n = solid.faceDistances(x, distances);
+        for (int f = 0; f < n; ++f)
+            if (distances[f] > tolerance) beyond &= ~(1u << f);
+        beyond &= (1u << n) - 1;
+    }
+    return beyond;
+}
+
 void CoverBuilder::sample(const Solid& solid, std::vector<Sample>& samples) const
 {
     samples.clear();
@@ -128,6 +161,17 @@ void CoverBuilder::sample(const Solid& solid, std::vector<Sample>& samples) cons
     const Vec3 position = solid.pose.position;
     const double outward = solid.offsetBound();
     const bool sharp = isSharp(solid);
+    const unsigned beyond = sharp ? 0 : facesBeyond(solid);
+    const double onFace = flush * (upper - lower).norm();
+    const auto linearDistance = [&](const Vec3& y)
+    {
+        double faces[maxFaces], d = shape.distance(y), inside = -farDistance;
+        if (beyond == 0 || d > onFace) return d;
+        const int n = shape.faceDistances(y, faces);
+        for (int f = 0; f < n; ++f)
+            if (!(beyond >> f & 1)) inside = std::max(inside, faces[f]);
+        return inside > -farDistance ? inside : d;
+    };
     const Vec3 far = Vec3::Constant(farDistance);
     bins_.forEachNear(isNeedless_ ? std::array<Vec3, 2>{-far, far} : solid.spaceBounds(), [&](int node, const Vec3& x)
     {
@@ -138,7 +182,7 @@ void CoverBuilder::sample(const Solid& solid, std::vector<Sample>& samples) cons
         double faces[maxFaces];
         const int nFaces = sharp ? shape.faceDistances(y, faces) : 0;
         const double* nearest = std::max_element(faces, faces + nFaces);
-        const double d = nFaces > 0 ? *nearest : shape.distance(y);
+        const double d = nFaces > 0 ? *nearest : linearDistance(y);
         if (d > limit) return;
         double film = noFilm;
         if (nFaces == 0) film = film_.thickness(node, solid);

@@ -79,6 +79,7 @@ private:
     };
 
     bool isSharp(const Solid& solid) const;
+    unsigned facesBeyond(const Solid& solid) const;
     bool needsOffsets(const Solid& solid) const;
     static bool isSameFixed(const Solid& now, const Solid& then);
     bool sameFixedSolids(const std::vector<Solid>& solids) const;

@@ -308,6 +308,32 @@ TEST_CASE("a structure beside the mesh is not there")
     }
 }
 
+TEST_CASE("a pier that stands on the bed, or reaches a little or far below it, has no foot in the fluid")
+{
+    const CoverScene scene(3, 8);
+    double first[2] = {-1, -1};
+    for (const double below : {0.0, 1e-3, 0.03, 0.5})
+        for (const bool isBox : {false, true})
+        {
+            const auto shape = isBox ? makeBox({0, -0.5*below, 0}, {0.5, 1.2 + below, 0.4}) : makeCylinder({0, -0.6 - below, 0}, {0, 0.6, 0}, 0.3);
+            std::vector<Solid> solids{makeSolid(shape, {0.03, -0.4, 0.02}, Solid::Kind::Fixed)};
+            solids[0].pose.orientation.setIdentity();
+            CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+            const Cover& cover = builder.build(solids);
+            CAPTURE(below);
+            CAPTURE(isBox);
+            double& volume = first[isBox];
+            if (volume < 0) volume = cover.solidVolume[0];
+            CHECK(cover.solidVolume[0] == near(volume, 1e-12));
+            // vertical force of a uniform pressure: that on the top alone
+            double force = 0;
+            for (const CutElement& cut : cover.cuts)
+                for (int f = cut.facetStart; f < cut.facetEnd; ++f)
+                    if (scene.mesh.isOwnedElement[cut.element]) force += cover.facets[f].area * cover.facets[f].normal[1];
+            CHECK(-scene.halo.sum(force) == near(isBox ? 0.2 : M_PI*0.09, 0.15));
+        }
+}
+
 TEST_CASE("no solids: all fluid")
 {
     const CoverScene scene(3, 6);
