@@ -60,11 +60,37 @@ std::vector<std::string> namesFrom(const std::vector<double>& codes)
     return names;
 }
 
+constexpr int descriptionSize = 15;
+
+/// What must not change in a run, one row of numbers for each structure and body: mass, volume, bounds of the shape; of structures also the pose given.
+std::vector<double> describe(const BodiesInput& input)
+{
+    std::vector<double> rows;
+    const auto add = [&](double mass, double volume, const Shape& shape, const Pose& pose)
+    {
+        const std::array<Vec3, 2> b = shape.bounds();
+        rows.insert(rows.end(), {mass, volume, b[0][0], b[0][1], b[0][2], b[1][0], b[1][1], b[1][2], pose.position[0], pose.position[1], pose.position[2],
+            pose.orientation.w(), pose.orientation.x(), pose.orientation.y(), pose.orientation.z()});
+    };
+    for (const StructureDefinition& s : input.structures) add(0, s.solid.shape->moments().volume, *s.solid.shape, s.solid.pose);
+    for (const BodyDefinition& b : input.bodies) add(b.mass, b.volume, *b.shape, Pose());
+    return rows;
+}
+
+/// First row that differs by more than what files round, -1: none.
+int differingRow(const std::vector<double>& a, const std::vector<double>& b)
+{
+    for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k)
+        if (std::abs(a[k] - b[k]) > 1e-9*std::max({1e-3, std::abs(a[k]), std::abs(b[k])})) return int(k)/descriptionSize;
+    return -1;
+}
+
 } // namespace
 
 RunOutput::RunOutput(const Foam::Time& runTime, const SimplexMesh& mesh, const Halo& halo, const BodiesInput& bodies,
     const PhaseTimers& timers)
 :   runTime_(runTime), mesh_(mesh), halo_(halo), timers_(timers), members_(makeMembers(bodies)),
+    descriptions_(describe(bodies)),
     files_(runTime, mesh, halo), log_(timers, runTime.value(), runTime.endTime().value()), forces_(structureNames(bodies)),
     nStructures_(int(bodies.structures.size())), firstStart_(runTime.value())
 {}
@@ -145,11 +171,21 @@ void RunOutput::continueShared(CoupledStep& step, const FoamFields& fields)
         << "; the first step is of first order in time" << Foam::endl;
 }
 
-/// Solids are stored by their numbers: another order would exchange them.
+/// Solids are stored by their numbers: another order would exchange them. Poses come from the state, so that a structure given elsewhere would stay where it was.
 void RunOutput::checkMembers(const RunState& state) const
 {
     const auto stored = state.arrays.find("members");
-    if (stored == state.arrays.end() || stored->second == codesOf(members_)) return;
+    if (stored == state.arrays.end()) return;
+    if (stored->second == codesOf(members_))
+    {
+        const auto described = state.arrays.find("descriptions");
+        const int other = described == state.arrays.end() ? -1 : differingRow(described->second, descriptions_);
+        if (other >= 0)
+            throw std::runtime_error("restart: constant/bodies is not that of the stored state of time " + runTime_.timeName() + ": mass, volume, extent"
+                + std::string(members_[other].isStructure ? " or place" : "") + " of '" + members_[other].name + "' differ. Continue with what it was; to start anew from the"
+                " fields of this time, with the bodies at their places in constant/bodies, remove its flotsamState.h5 and uniform/flotsamState.h5");
+        return;
+    }
     const std::vector<std::string> names = namesFrom(stored->second);
     std::size_t first = 0;
     while (first < names.size() && first < members_.size() && names[first] == members_[first].name) ++first;
@@ -268,6 +304,7 @@ void RunOutput::writeState(const CoupledStep& step, double timeStep)
     state.arrays.insert(ofProcess.begin(), ofProcess.end());
     state.arrays["forces"] = forces_.values();
     state.arrays["members"] = codesOf(members_);
+    state.arrays["descriptions"] = descriptions_;
     state.scalars = {{"initialLiquid", mass_.initial}, {"inflow", mass_.inflow}, {"outflow", mass_.outflow}, {"liquid", mass_.final},
         {"steps", double(steps_)}, {"redistributed", redistributed_}, {"timeStep", timeStep}, {"firstStart", firstStart_},
         {"largestOverlap", largestOverlap_}};

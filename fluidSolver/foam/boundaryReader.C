@@ -129,11 +129,34 @@ void checkTimeFolder(const Foam::Time& runTime)
         << "    Set startFrom and startTime in system/controlDict, or copy 0.orig to 0." << Foam::exit(Foam::FatalError);
 }
 
+/// A serial run that takes its latest time while processor folders hold later ones would run them once more and write over their histories.
+void checkProcessorTimes(const Foam::Time& runTime)
+{
+    if (Foam::Pstream::parRun() || runTime.controlDict().getOrDefault<Foam::word>("startFrom", "latestTime") != "latestTime") return;
+    const Foam::instantList times = Foam::Time::findTimes(runTime.path()/"processor0", runTime.constant());
+    if (times.empty() || times.last().value() <= runTime.value() + 1e-12*std::abs(times.last().value())) return;
+    FatalErrorInFunction << "Folder " << runTime.path()/"processor0" << " holds time " << times.last().name() << ", later than the latest time here, " << runTime.timeName()
+        << ": this run would compute what is there once more, over the histories in postProcessing." << Foam::nl
+        << "    reconstructPar -latestTime brings that time here; remove the processor folders, or set startFrom startTime, to begin again at " << runTime.timeName() << '.'
+        << Foam::exit(Foam::FatalError);
+}
+
+/// The field's file, and what it is for.
+void checkPhaseFile(const Foam::polyMesh& mesh, const std::string& name)
+{
+    if (Foam::isFile(mesh.time().timePath()/name) || Foam::isFile(mesh.time().timePath()/(name + ".gz"))) return;
+    FatalErrorInFunction << "File " << mesh.time().timePath()/name << " is missing: the volume fraction of the liquid, first of phases in transportProperties." << Foam::nl
+        << "    Give it as interFoam does, e.g. dimensions [0 0 0 0 0 0 0]; internalField uniform 0; and fill it with setFields, setExprFields or setAlphaField."
+        << Foam::exit(Foam::FatalError);
+}
+
 } // namespace
 
 std::string pressureFieldName(const Foam::polyMesh& mesh, const CaseControls& controls)
 {
     checkTimeFolder(mesh.time());
+    checkProcessorTimes(mesh.time());
+    if (controls.fluid.isTwoPhase) checkPhaseFile(mesh, controls.alphaName);
     if (hasField(mesh, "p_rgh")) return "p_rgh";
     if (controls.fluid.isTwoPhase)
         FatalErrorInFunction << "File " << mesh.time().timePath()/"p_rgh" << " is missing: two fluids are solved as in interFoam, "

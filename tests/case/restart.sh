@@ -61,6 +61,17 @@ fixedSteps touching 0.001 0.08 20
 stopAndGoOn touching 0.05 0.08
 mustTouch touching 0.05 bar edge
 
+# otherBodies NAME 'COMMAND': what the command changes in constant/bodies of a run that is to go on is refused with the name
+otherBodies() {
+    rm -rf other && cp -r touching.parts other
+    (cd other && eval "$2" && setEntry system/controlDict endTime 0.1) || fail "could not change $1"
+    if (cd other && flotsamFoam > log.other 2>&1); then fail "the run goes on with another $1"; fi
+    grep -q "constant/bodies is not that of the stored state.* of '$1' differ" other/log.other || fail "another $1: no such message: $(tail -n 12 other/log.other)"
+}
+otherBodies edge 'sed -i "s/position (-0.002 -0.018/position (-0.003 -0.018/" constant/bodies'
+otherBodies edge 'sed -i "s/size (0.01 0.01 0.05)/size (0.012 0.01 0.05)/" constant/bodies'
+otherBodies bar 'sed -i "s/density .*590;/density 800;/" constant/bodies'
+
 # The paper's transport, and a round body, whose cut is corrected. Steps grow; write times count from the start, 0.005 s.
 makeFloatingBar growing
 setNumerics growing 'dualCellTransport off;'

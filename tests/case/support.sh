@@ -52,7 +52,7 @@ makeFallingSphere() {
 makeJam() {
     makeCase slitDam "$1"
     sed -i -e 's/^upstream .*/upstream 0.32;/' -e 's/^downstream .*/downstream 0.1;/' \
-        -e 's/^quick .*/quick { drift 5; approach 4; slit 7; outlet 3; nx 19; ny 14; bed 3; surface 8; air 2; nz 13; }/' "$1/system/parameters"
+        -e 's/^quick .*/quick { drift 5; approach 4; slit 7; outlet 3; nx 19; ny 14; bed 3; surface 8; air 2; nz 13; refinedLength 0; refinedHeight 0; }/' "$1/system/parameters"
     sed -i '/^#ifeq/,$d' "$1/constant/bodies"
     cat >> "$1/constant/bodies" << 'EOF'
 bodies
