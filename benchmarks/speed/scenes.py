@@ -67,7 +67,8 @@ def slitDam(root, runs, resolution="quick", bars="yes", suffix=""):
     parameters = os.path.join(folder, "system", "parameters")
     setEntry(parameters, "resolution", resolution)
     setEntry(parameters, "bars", bars)
-    for tool in ("blockMesh", "setExprFields", "setExprBoundaryFields"):
+    refine = [("topoSet",), ("refineMesh", "-overwrite")] if resolution == "standard" else []
+    for tool in (("blockMesh",), *refine, ("setExprFields",), ("setExprBoundaryFields",)):
         steps.do(folder, tool)
     return Scene(f"slitDam {resolution}" + ("" if bars == "yes" else " without bars"), folder, 0.005 if resolution == "quick" else 0.002, 5, 25)
 
