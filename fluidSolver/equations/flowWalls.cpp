@@ -40,23 +40,34 @@ struct FacetMotion
     }
 };
 
-/// separationHold() in a cut element, by velocities relative to its solid.
+/// separationHold() in a cut element, by velocities relative to its solid. Their change in time is that of the fluid where the solid is, du/dt + (ubar.grad) u;
+/// the solid's own acceleration is not in it.
 template<int D>
-double holdOfSolid(const ElementData<D>& e, const int* nodes, const RigidArm<D>* arm, const double* q, const NodalData& nodal, double share, double h)
+double holdOfSolid(const ElementData<D>& e, const int* nodes, const RigidArm<D>* arm, const double* q, const NodalData& nodal, const FlowState& state, double share, double h)
 {
-    double mean[D], relative[(D + 1)*D];
+    double mean[D], relative[(D + 1)*D], rate[D] = {}, wall[D] = {};
+    const double perStep = state.dt > 0 ? 1/state.dt : 0;
     std::copy_n(e.advection, D, mean);
     for (int a = 0; a <= D; ++a)
     {
+        const std::size_t first = std::size_t(nodes[a])*D;
         double ubar[D];
         arm[a].velocity(q, ubar);
         for (int d = 0; d < D; ++d)
         {
-            relative[a*D + d] = nodal.advection[std::size_t(nodes[a])*D + d] - ubar[d];
+            relative[a*D + d] = nodal.advection[first + d] - ubar[d];
             mean[d] -= ubar[d]/(D + 1);
+            wall[d] += ubar[d]/(D + 1);
+            rate[d] += perStep*(state.u[first + d] - state.uOld[first + d])/(D + 1);
         }
     }
-    return separationHold<D>(share, e.rho, e.mu, h, mean, relative, e.gradN);
+    for (int a = 0; a <= D; ++a)
+    {
+        double along = 0;
+        for (int d = 0; d < D; ++d) along += wall[d]*e.gradN[a*D + d];
+        for (int d = 0; d < D; ++d) rate[d] += along*nodal.advection[std::size_t(nodes[a])*D + d];
+    }
+    return separationHold<D>(share, e.rho, e.mu, h, mean, relative, rate, e.gradN);
 }
 
 } // namespace
@@ -81,7 +92,7 @@ void FlowEquation::addFacetGroup(const FacetGroup<D>& group, const Solid& solid,
     WallCoefficients c = controls_.nitsche ? nitscheCoefficients(data, isSlip, controls_.nitscheGamma, mesh_.h[group.element], step_.time.dt, motion.slip)
                                            : penaltyCoefficients(isSlip, controls_.penalty);
     if (controls_.nitsche && !isSlip && controls_.separation > 0)
-        c.tangential = std::max(c.tangential, holdOfSolid(data, nodes, arm, q, nodal_, controls_.separation, mesh_.h[group.element]));
+        c.tangential = std::max(c.tangential, holdOfSolid(data, nodes, arm, q, nodal_, *step_.state, controls_.separation, mesh_.h[group.element]));
     c.convection = 0.5*motion.density*motion.wall;
     const WallTerms<D> terms(c, group.normal, data.gradN);
     RigidBlocks<D> rigid;

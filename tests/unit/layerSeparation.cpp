@@ -47,7 +47,10 @@ struct Element
         for (int d = 0; d < D; ++d) mean[d] = a0[d];
     }
 
-    double hold(double mu) const { return separationHold<D>(0.3, 1000, mu, 0.01, mean, nodal, gradN); }
+    double hold(double mu, const Eigen::Matrix<double, D, 1>& rate = Eigen::Matrix<double, D, 1>::Zero()) const
+    {
+        return separationHold<D>(0.3, 1000, mu, 0.01, mean, nodal, rate.data(), gradN);
+    }
 };
 
 constexpr double thin = 1e-9;   // [Pa s]: layers far thinner than the element
@@ -73,6 +76,10 @@ void checkStreams()
     CHECK(Element<D>(a, turned(3*stretch)).hold(thin) == near(0.3*1000*(0.01*3 - 0.02*0.5), 1e-10));
     CHECK(Element<D>(a, turned(3*stretch + shear)).hold(thin) == near(0.3*1000*(0.01*3 - 0.02*0.5), 1e-10));
     CHECK(Element<D>(a, turned(0.9*stretch)).hold(thin) == 0);      // less than a fiftieth over the element
+    // half where the stream changes as fast in time as along itself (beyond the fiftieth), whatever changes across it
+    const double slowing = 0.5*3 - 0.02*0.5*0.5/0.01;   // [m/s^2]
+    CHECK(Element<D>(a, turned(3*stretch)).hold(thin, turn*(slowing*Vector::Unit(0) + 7*Vector::Unit(1))) == near(0.5*0.3*1000*(0.01*3 - 0.02*0.5), 1e-10));
+    CHECK(Element<D>(a, turned(3*stretch)).hold(thin, turn*(-slowing*Vector::Unit(0))) == near(0.5*0.3*1000*(0.01*3 - 0.02*0.5), 1e-10));
     // half where the element's Reynolds number is 100, next to nothing at 10
     CHECK(Element<D>(a, turned(3*stretch)).hold(1000*0.5*0.01/100) == near(0.5*0.3*1000*(0.01*3 - 0.02*0.5), 1e-10));
     CHECK(Element<D>(a, turned(3*stretch)).hold(1000*0.5*0.01/10) < 0.011*0.3*1000*(0.01*3 - 0.02*0.5));
