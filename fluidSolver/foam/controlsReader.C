@@ -297,7 +297,7 @@ void checkWriteInterval(const Foam::fileName& controlDict)
     if (!file.good()) return;   // Time says what is missing
     Foam::dictionary dict;
     dict.name() = controlDict;
-    dict.read(file);
+    dict.read(file);            // on every rank: code that it may hold (#calc) is compiled together
     readNumberOr(dict, "writeInterval", 1, positive);
 }
 

@@ -129,7 +129,10 @@ unsigned CoverBuilder::facesBeyond(const Solid& solid) const
 {
     double distances[maxFaces];
     if (solid.kind != Solid::Kind::Fixed || solid.shape->faceDistances(Vec3::Zero(), distances) == 0) return 0;
-    auto [low, high] = solid.spaceBounds();
+    Solid plain = solid; // as in isSharp(): not by the offsets, which would move the foot of a pier off the bed
+    plain.offset = 0;
+    plain.offsetSlope.setZero();
+    auto [low, high] = plain.spaceBounds();
     const double size = (high - low).norm(), tolerance = flush * size;
     low.array() -= 0.01 * size; // beyond the structure's own faces
     high.array() += 0.01 * size;
@@ -144,7 +147,7 @@ unsigned CoverBuilder::facesBeyond(const Solid& solid) const
     for (int corner = 0; corner < 8; ++corner)
     {
         const Vec3 x(corner & 1 ? low[0] : high[0], corner & 2 ? low[1] : high[1], corner & 4 ? low[2] : high[2]);
-        const int n = solid.faceDistances(x, distances);
+        const int n = plain.faceDistances(x, distances);
         for (int f = 0; f < n; ++f)
             if (distances[f] > tolerance) beyond &= ~(1u << f);
         beyond &= (1u << n) - 1;

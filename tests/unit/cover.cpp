@@ -319,6 +319,19 @@ TEST_CASE("a pier that stands on the bed, or reaches a little or far below it, h
             std::vector<Solid> solids{makeSolid(shape, {0.03, -0.4, 0.02}, Solid::Kind::Fixed)};
             solids[0].pose.orientation.setIdentity();
             CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+            // the volume of slip structures is made exact by an offset, which must not bring the foot back
+            solids[0].wall = Solid::Wall::Slip;
+            solids[0].offset = 0;
+            const Cover slip = builder.buildExactVolume(solids);
+            CHECK(slip.solidVolume[0] == near(1.2*(isBox ? 0.2 : M_PI*0.09), 0.01));    // integrated on divided elements [test cutGeometry]
+            double lift = 0;
+            for (const CutElement& cut : slip.cuts)
+                for (int f = cut.facetStart; f < cut.facetEnd; ++f)
+                    if (scene.mesh.isOwnedElement[cut.element]) lift -= slip.facets[f].area * slip.facets[f].normal[1];
+            CHECK(scene.halo.sum(lift) == near(isBox ? 0.2 : M_PI*0.09, 0.15));
+            solids[0].wall = Solid::Wall::NoSlip;
+            solids[0].offset = 0;
+            solids[0].offsetSlope.setZero();
             const Cover& cover = builder.build(solids);
             CAPTURE(below);
             CAPTURE(isBox);

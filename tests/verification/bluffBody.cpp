@@ -22,10 +22,7 @@ double dragOfRow(double separation, int n)
 {
     const SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, 2, {15*n, int(pitch*n + 0.5), 1}, {-5, -pitch/2, 0}, {10, pitch/2, 1}, 0);
     const Halo halo(mesh, MPI_COMM_WORLD);
-    FluidProperties properties;
-    properties.isTwoPhase = false;
-    properties.rhoLiquid = 1;
-    properties.muLiquid = 1/reynolds;
+    const FluidProperties properties = oneFluid(1, 1/reynolds);
     NumericsControls controls;
     controls.separation = separation;
     const auto stream = [](const double*, double) { return std::array<double, 3>{1, 0, 0}; };
@@ -49,7 +46,7 @@ double dragOfRow(double separation, int n)
     {
         fluid.beginStep(dt);
         fluid.assemble();
-        fluid.solve({});
+        REQUIRE(fluid.solve({}).hasConverged);
         fluid.endStep();
         if (t < 15) continue;
         sum += fluid.solidLoads()[0].force[0];
@@ -61,7 +58,7 @@ double dragOfRow(double separation, int n)
 
 } // namespace
 
-TEST_CASE("drag of a row of round bars at Reynolds number 1e4: that of racks within 25 %")
+TEST_CASE("drag of a row of round bars at Reynolds number 1e4: that of racks within 15 %")
 {
     usePetsc();
     const double gap = pitch - 1, kirschmer = 1.79*std::pow(gap, -4./3)*gap*gap/pitch;
@@ -69,7 +66,7 @@ TEST_CASE("drag of a row of round bars at Reynolds number 1e4: that of racks wit
     {
         const double drag = dragOfRow(NumericsControls().separation, n);
         std::printf("%d elements a diameter: drag coefficient %.3f, by Kirschmer's loss %.3f\n", n, drag, kirschmer);
-        CHECK(std::abs(drag/kirschmer - 1) < 0.25);
+        CHECK(std::abs(drag/kirschmer - 1) < 0.15);
     }
     // what the condition is for: without it the stream stays attached
     CHECK(dragOfRow(0, 8) < 0.65*kirschmer);
