@@ -7,6 +7,8 @@ flotsam_test(patchWalls verification SOURCES verification/patchWalls.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(slipEdge verification SOURCES verification/slipEdge.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
+flotsam_test(slipBend verification SOURCES verification/slipBend.cpp
+  LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(liquidShares unit SOURCES unit/liquidShares.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(viscousForce unit SOURCES unit/viscousForce.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(openBoundary unit SOURCES unit/openBoundary.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)

@@ -16,6 +16,35 @@
 namespace flotsam
 {
 
+namespace
+{
+
+/// A face of a wall, with area vector v, to the normals of its nodes, with the weights by which these are exact on circles and spheres (Max 1999,
+/// doi 10.1080/10867651.1999.10487501): one over the squares of its edges at the node.
+void addToNormals(const SimplexMesh& mesh, const int* nodes, const double* v, std::map<int, SlipNormals>& slip)
+{
+    const int dim = mesh.dim;
+    for (int k = 0; k < dim; ++k)
+    {
+        double place[3] = {}, weighted[3], weight = 1;
+        for (int l = 0; l < dim; ++l)
+        {
+            double square = 0;
+            for (int d = 0; d < dim; ++d)
+            {
+                const double edge = mesh.x[std::size_t(nodes[l])*dim + d] - mesh.x[std::size_t(nodes[k])*dim + d];
+                place[d] += edge/dim;
+                square += edge*edge;
+            }
+            if (l != k) weight /= square;
+        }
+        for (int d = 0; d < dim; ++d) weighted[d] = weight*v[d];
+        slip[nodes[k]].addFace(weighted, place, dim);
+    }
+}
+
+} // namespace
+
 void FlowEquation::buildConstraints()
 {
     const int dim = mesh_.dim;
@@ -29,17 +58,9 @@ void FlowEquation::buildConstraints()
         const MeshPatch& patch = mesh_.patches[p.meshPatch];
         for (std::size_t f = 0; f < patch.faceElement.size(); ++f)
         {
-            const int* nodes = &patch.faceNodes[f*dim];
             double v[3];
             outwardVector(mesh_, patch, f, v);
-            for (int k = 0; k < dim; ++k)
-            {
-                double place[3] = {};
-                for (int l = 0; l < dim; ++l)
-                    for (int d = 0; d < dim; ++d)
-                        place[d] += (mesh_.x[std::size_t(nodes[l])*dim + d] - mesh_.x[std::size_t(nodes[k])*dim + d])/dim;
-                slip[nodes[k]].addFace(v, place, dim);
-            }
+            addToNormals(mesh_, &patch.faceNodes[f*dim], v, slip);
         }
     }
     for (int i = 0; i < mesh_.nNodes; ++i)
@@ -47,15 +68,18 @@ void FlowEquation::buildConstraints()
     for (const BoundaryPatch& p : patches_)
         for (int i : p.nodes)
             if (p.isNoSlipWall && isFixed[i]) restingNodes_.push_back(i);
-    std::vector<int> isEdge(mesh_.nNodes, 0);
+    std::vector<int> isEdge(mesh_.nNodes, 0), isBend(mesh_.nNodes, 0);
     for (const auto& [node, normals] : slip)
     {
         if (isFixed[node]) continue;
         constraints_.push_back(normals.constraint(node, dim));
         isEdge[node] = normals.hasEdge();
+        isBend[node] = normals.isBent();
     }
     halo_.update(isEdge, 1);    // second-ring copies do not see all of their faces
+    halo_.update(isBend, 1);
     isSlipEdge_.assign(isEdge.begin(), isEdge.end());
+    isSlipBend_.assign(isBend.begin(), isBend.end());
     findEdgeElements(slip);
     for (const NodeConstraint& c : constraints_)
         if (c.node < mesh_.nOwned) system_.constraints.push_back(c);

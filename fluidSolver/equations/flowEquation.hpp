@@ -170,6 +170,7 @@ private:
     std::vector<double> entering_;              // nNodes, work of findWeakPressures(): volume flux into the mesh [m^dim/s]
     double gasLevel_ = 0;                       // of the gas at rest's pressure [Pa]
     std::vector<char> isSlipEdge_;              // nNodes: on a re-entrant edge of walls, see SlipNormals
+    std::vector<char> isSlipBend_;              // nNodes: where faces of one wall differ in direction
     std::vector<EdgeElement> edgeElements_;
     std::vector<int> restingNodes_;             // of no-slip walls that share them with a patch of prescribed velocity: the wall wins
     std::size_t nPatchConstraints_ = 0;         // of the system's, the first ones; then those of shut pockets

@@ -73,8 +73,9 @@ struct WallFace
 
 } // namespace
 
-/// The terms of a wall (wallTerms.hpp) on every face of a no-slip patch, and of a slip patch where it has a node of a re-entrant edge. At other nodes the
-/// normal velocity is prescribed and its terms vanish. No volume passes through the face: the continuity rows lose int q u.n.
+/// The terms of a wall (wallTerms.hpp) on every face of a no-slip patch, and of a slip patch where it has a node of a re-entrant edge or of a bend. At other
+/// nodes the normal velocity is prescribed and its terms vanish; at a bend that of the faces' mean normal is, and what is left of it passes each of them: without its
+/// terms hydrostatic pressure pushes fluid along the bend. No volume passes through the face: the continuity rows lose int q u.n.
 template<int D>
 void FlowEquation::assemblePatchWalls()
 {
@@ -87,7 +88,8 @@ void FlowEquation::assemblePatchWalls()
         {
             const int* nodes = &faces.faceNodes[f*D];
             const bool hasEdge = std::any_of(nodes, nodes + D, [&](int i) { return isSlipEdge_[i]; });
-            if ((!isSlip || hasEdge) && faces.faceElement[f] < mesh_.nInnerElements) addWallFace<D>(faces, f, isSlip, hasEdge);
+            const bool isBent = std::any_of(nodes, nodes + D, [&](int i) { return isSlipBend_[i]; });
+            if ((!isSlip || hasEdge || isBent) && faces.faceElement[f] < mesh_.nInnerElements) addWallFace<D>(faces, f, isSlip, hasEdge);
         }
     }
 }

@@ -13,6 +13,7 @@ namespace
 using Vector = std::array<double, 3>;
 
 constexpr double sameNormal = 0.9; // cosine above which two faces belong to one smooth wall
+constexpr double flat = 1 - 1e-12; // cosine up to which they are one plane, from 1e-6 of an angle on
 constexpr double leastSine = 0.1;  // of the angle between walls: nothing but round-off between the sides of a baffle
 
 double dot(const Vector& a, const Vector& b) { return a[0]*b[0] + a[1]*b[1] + a[2]*b[2]; }
@@ -33,7 +34,9 @@ void SlipNormals::addFace(const double* v, const double* place, int dim)
     std::copy(place, place + dim, face.place.begin());
     for (Wall& wall : walls_)
     {
-        if (dot(wall.area, face.area) <= sameNormal*length(wall.area)*length(face.area)) continue;
+        const double cosine = dot(wall.area, face.area)/(length(wall.area)*length(face.area));
+        if (cosine <= sameNormal) continue;
+        isBent_ = isBent_ || cosine < flat;
         add(wall.area, 1, face.area);
         add(wall.place, 1, face.place);
         return;

@@ -16,11 +16,14 @@ namespace flotsam
 class SlipNormals
 {
 public:
-    /// v: area vector of a face at the node, out of the fluid; place: the face's centre seen from the node. dim values each.
+    /// v: normal of a face at the node, out of the fluid, as long as the face is to weigh; place: the face's centre seen from the node. dim values each.
     void addFace(const double* v, const double* place, int dim);
 
     /// Whether walls meet in a re-entrant edge here.
     bool hasEdge() const;
+
+    /// Whether faces of one wall differ in direction here: what its normal leaves to the velocity passes these faces.
+    bool isBent() const { return isBent_; }
 
     /// Unit normals, out of the fluid, of the walls that meet in a re-entrant edge here.
     std::vector<std::array<double, 3>> edgeNormals() const;
@@ -38,6 +41,7 @@ private:
     bool isAtEdge(const Wall& wall) const;
 
     std::vector<Wall> walls_;
+    bool isBent_ = false;
 };
 
 } // namespace flotsam

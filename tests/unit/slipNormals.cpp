@@ -63,7 +63,11 @@ TEST_CASE("faces of one smooth wall have one normal, its sides too")
     CHECK(!pipe.hasEdge());
     CHECK(pipe.constraint(0, 2).nDirections == 1);
     CHECK(std::abs(pipe.constraint(0, 2).direction[0][0]) < 1e-15);
+    CHECK(pipe.isBent());
     const SlipNormals baffle = normalsOf({{{0, 1}, {1, 1e-17}}, {{0, -1}, {-1, -1e-17}}}, 2);
     CHECK(!baffle.hasEdge());
     CHECK(baffle.constraint(0, 2).nDirections == 1);
+    const SlipNormals plane = normalsOf({{{0.3*s, 0.3*c}, {-1, 0.1}}, {{0.7*s, 0.7*c}, {1, -0.1}}}, 2), corner = normalsOf({{{0, -1}, {1, 0}}, {{-1, 0}, {0, 1}}}, 2);
+    CHECK(!plane.isBent());
+    CHECK(!corner.isBent());
 }

@@ -2,7 +2,7 @@
 """Heave decay of a floating sphere, H0 = 0.1 D (Kramer et al. 2021). N: elements a diameter."""
 import numpy as np
 
-from runner import foam
+from runner import foam, refinement
 from runner.cases import Run
 from support.compare import relative, small
 from support.files import around, blockMesh, bodies, control, field, gravity, level, merged, twoFluids
@@ -13,20 +13,26 @@ DIAMETER, DROP, PERIOD, END = 0.3, 0.03, 0.7561, 2.3
 title = """Sphere of 0.3 m, 7.056 kg, half immersed at rest, released 0.03 m above (Kramer et al. 2021, 95 % band of the experiment). Basin 8 x 8 m (13 x 8.44 m in the experiment), 0.9 m deep, slip walls
 (long waves come back after 2.7 s; from walls at 2 m after 1.3 s, and lift the mean by 0.012 H0); N elements a diameter within 0.2 m of the sphere, wider elsewhere; three periods. The body is of uniform density."""
 
-runs = [Run("flotsamFoam", n, quick=n == 8, timeLimit=3600) for n in (8, 12, 16)]
+REFINED, SHORT, STEP = "refined", "5 ms", 0.01       # the longest step [s]
+BOX = [((-0.2, -0.2, -0.21), (0.2, 0.2, 0.21))]
+runs = [*(Run("flotsamFoam", n, quick=n == 8, timeLimit=3600) for n in (8, 12, 16)),
+        *(Run("flotsamFoam", n, SHORT, timeLimit=3600, options={"step": STEP / 2}) for n in (8, 12, 16)),
+        *(Run("flotsamFoam", n, REFINED, timeLimit=3600, options={"levels": 1}) for n in (16,))]
 
 
 def resolution(run):
-    return f"{run.n} a diameter"
+    return f"{run.n} a diameter{', ' + run.variant if run.variant else ''}"
 
 
 def files(run, _folder):
-    h = DIAMETER / run.n
+    levels = run.options.get("levels", 0)
+    h = DIAMETER / run.n * 2**levels
     side = around(-4, -0.2, 0.2, 4, h, 1.2)
     height = around(-0.9, -0.22, 0.22, 0.4, h, 1.25)
     density = 7.056 / (np.pi / 6 * DIAMETER**3)
     walls = "type fixedFluxPressure; value uniform 0;"
     return merged(
+        refinement.dictionaries(BOX[:levels], "tan1 tan2 normal"),
         blockMesh(side, side, height, {"walls": ("wall", "x- x+ y- y+ z-"), "atmosphere": ("patch", "z+")}),
         field("U", {"walls": "slip", "atmosphere": "type pressureInletOutletVelocity; value uniform (0 0 0);"}),
         field("p_rgh", {"walls": walls, "atmosphere": "type totalPressure; p0 uniform 0;"}),
@@ -34,7 +40,7 @@ def files(run, _folder):
         level("(0 0 1)"),
         twoFluids(1e-6, 1.48e-5, 998.2, 1.2), gravity(z=-9.82),
         bodies(f"bodies {{ sphere {{ shape {{ type sphere; radius 0.15; }} density {density:.10g}; position (0 0 {_rest(density) + DROP:.8g}); }} }}"),
-        control(END, 1e-3, maxDeltaT=0.01))
+        control(END, 1e-3, maxDeltaT=run.options.get("step", STEP)))
 
 
 def _rest(density):
@@ -49,8 +55,9 @@ def parameters(_run):
     return {}
 
 
-def prepare(_run, do):
+def prepare(run, do):
     do("blockMesh")
+    refinement.refine(run.options.get("levels", 0), do)
     do("setAlphaField")
 
 
