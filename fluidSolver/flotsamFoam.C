@@ -6,6 +6,7 @@
 #include "demCoupling/coupling/coupledStep.hpp"
 #include "demCoupling/foam/bodiesReader.H"
 #include "demCoupling/foam/runOutput.H"
+#include "demCoupling/foam/structureChecks.H"
 #include "foam/boundaryReader.H"
 #include "foam/caseCheck.H"
 #include "foam/cellCost.H"
@@ -128,6 +129,16 @@ void weighCells(const Foam::fvMesh& mesh, const MeshAdapter& adapter, const Halo
         << Foam::endl;
 }
 
+/// reportThinStructures() before a run.
+void checkThinStructures(const MeshAdapter& adapter, const Halo& halo, const std::vector<StructureDefinition>& structures)
+{
+    if (structures.empty()) return;
+    std::vector<Solid> solids;
+    for (const StructureDefinition& s : structures) solids.push_back(s.solid);
+    const NodeGraph graph(adapter.mesh);
+    reportThinStructures(adapter.mesh, graph, halo, cutMesh(adapter.mesh, graph, halo, solids), structures, solids.size());
+}
+
 /// Axis along which gravity acts most; -1: none.
 int verticalAxis(const std::array<double, 3>& gravity)
 {
@@ -225,6 +236,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     if (task == Task::Check)
     {
         RunOutput(runTime, adapter.mesh, halo, bodies, timers).checkStart();
+        checkThinStructures(adapter, halo, bodies.structures);
         writeNumerics(Foam::Info, controls.numerics);
     }
     if (task == Task::WeighCells) weighCells(mesh, adapter, halo, bodies);
@@ -235,6 +247,8 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         bodies.bodies.empty() ? nullptr : &dem, timers);
     RunOutput output(runTime, adapter.mesh, halo, bodies, timers);
     start(step, output, fields, runTime);
+    if (!bodies.structures.empty())
+        reportThinStructures(adapter.mesh, step.fluid().graph(), halo, *step.cover(), bodies.structures, step.scene().solids().size());
     WriteTimes writeTimes(runTime, output.firstStart(), output.lastStep());
     output.begin(step);
     mesh.primitiveMesh::clearAddressing();  // cells, edges and the like that only the start needed; the geometry must stay: fields of the fvMesh are slices of it

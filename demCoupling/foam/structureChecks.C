@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/foam/structureChecks.H"
 
+#include "foam/dictionaryChecks.H"
 #include "geometry/primitives.hpp"
+#include "geometry/thinSolids.hpp"
 
 namespace flotsam
 {
@@ -92,6 +94,25 @@ void reportStructures(const BodiesInput& input, const SceneFrame& frame)
     const auto& [a, b] = overlaps.overlapping.front();
     Foam::Info<< overlaps.overlapping.size() << (overlaps.overlapping.size() == 1 ? " pair of structures overlaps: " : " pairs of structures overlap, the first: ")
         << name(a) << " and " << name(b) << ". Together they are one solid; each gets the force on its part of the surface" << Foam::nl;
+}
+
+void reportThinStructures(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const Cover& cover, const std::vector<StructureDefinition>& structures,
+    std::size_t nSolids)
+{
+    constexpr int mostNames = 3;
+    const std::vector<SharedNodes> shared = findSharedNodes(mesh, graph, halo, cover, nSolids);
+    int nThin = 0;
+    std::string names;
+    for (std::size_t s = 0; s < structures.size(); ++s)
+    {
+        if (shared[s].count == 0 || ++nThin > mostNames) continue;
+        const auto& x = shared[s].middle;
+        names += text(names.empty() ? "" : "; ", structures[s].solid.name, ", ", shared[s].count, shared[s].count == 1 ? " node around (" : " nodes around (",
+            x[0], " ", x[1], " ", x[2], ")");
+    }
+    if (nThin == 0) return;
+    Foam::Info<< "Warning: fluid seeps through structures that are thinner than two elements, where it has nodes in common on both sides: " << names.c_str()
+        << (nThin > mostNames ? text(" and ", nThin - mostNames, " more").c_str() : "") << ". Refine the mesh there, or make them thicker" << Foam::nl << Foam::endl;
 }
 
 } // namespace flotsam

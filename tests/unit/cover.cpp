@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/coverScene.hpp"
+#include "geometry/thinSolids.hpp"
 #include "support/near.hpp"
 
 #include <doctest/doctest.h>
@@ -354,4 +355,24 @@ TEST_CASE("no solids: all fluid")
     CHECK(cover.cuts.empty());
     CHECK(cover.ghostFaces.empty());
     CHECK(std::count(cover.isActiveNode.begin(), cover.isActiveNode.end(), 1) == scene.mesh.nNodes);
+}
+
+TEST_CASE("nodes in a plate see both of its sides if it is thinner than the elements around them")
+{
+    for (const int dim : {2, 3})
+    {
+        const CoverScene scene(dim, 10);    // elements of 0.2
+        const auto find = [&](double thickness)
+        {
+            std::vector<Solid> solids{makeSolid(makeBox(Vec3::Zero(), {thickness, 4, 4}), Vec3::Zero(), Solid::Kind::Fixed),
+                makeSolid(makeSphere(Vec3::Zero(), 0.3), {3, 0, 0}, Solid::Kind::Fixed)};
+            return findSharedNodes(scene.mesh, scene.graph, scene.halo, cutMesh(scene.mesh, scene.graph, scene.halo, solids), solids.size());
+        };
+        const std::vector<SharedNodes> thin = find(0.24);
+        REQUIRE(thin.size() == 2);
+        CHECK(thin[0].count >= 8);      // one in every row at least
+        CHECK(std::abs(thin[0].middle[0]*std::cos(0.4) + thin[0].middle[1]*std::sin(0.4)) < 0.03);     // in the plate's plane
+        CHECK(thin[1].count == 0);
+        CHECK(find(0.7)[0].count == 0);
+    }
 }

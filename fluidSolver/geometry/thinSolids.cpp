@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "geometry/thinSolids.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flotsam
+{
+
+namespace
+{
+
+constexpr double opposite = -0.7;   // cosine of normals below which two faces look to different sides
+
+/// Whether facets around node i look to opposite sides.
+bool seesTwoSides(const NodeGraph& graph, const Cover& cover, int i)
+{
+    std::vector<const double*> normals;
+    for (int k = graph.nodeElementStart[i]; k < graph.nodeElementStart[i + 1]; ++k)
+    {
+        const int cut = cover.cutIndex[graph.nodeElement[k]];
+        if (cut < 0) continue;
+        for (int f = cover.cuts[cut].facetStart; f < cover.cuts[cut].facetEnd; ++f)
+        {
+            const double* n = cover.facets[f].normal;
+            if (std::any_of(normals.begin(), normals.end(), [n](const double* m) { return n[0]*m[0] + n[1]*m[1] + n[2]*m[2] < opposite; })) return true;
+            normals.push_back(n);
+        }
+    }
+    return false;
+}
+
+} // namespace
+
+std::vector<SharedNodes> findSharedNodes(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const Cover& cover, std::size_t nSolids)
+{
+    std::vector<double> sums(4*nSolids, 0.0);   // of each solid: nodes, their coordinates
+    for (int i = 0; i < mesh.nOwned; ++i)
+    {
+        if (cover.distance[i] >= 0 || !cover.isActiveNode[i] || !seesTwoSides(graph, cover, i)) continue;
+        double* sum = &sums[4*std::size_t(cover.nearestSolid[i])];
+        const auto x = mesh.spacePoint(i);
+        sum[0] += 1;
+        for (int d = 0; d < 3; ++d) sum[1 + d] += x[d];
+    }
+    halo.sum(sums.data(), int(sums.size()));
+    std::vector<SharedNodes> result(nSolids);
+    for (std::size_t s = 0; s < nSolids; ++s)
+    {
+        result[s].count = std::lround(sums[4*s]);
+        for (int d = 0; d < 3 && result[s].count > 0; ++d) result[s].middle[d] = sums[4*s + 1 + d]/sums[4*s];
+    }
+    return result;
+}
+
+} // namespace flotsam
