@@ -26,6 +26,7 @@ struct FreeBody
 };
 
 template<int D> struct FacetGroup;
+template<int D> struct Turning;
 
 class FlowEquation
 {
@@ -83,7 +84,7 @@ private:
     template<int D> void addVelocity(int slot, double value);
     template<int D> void coupleToNeighbours(int i, double value);
     template<int D> void assembleWalls();
-    template<int D> void addFacetGroup(const FacetGroup<D>& group, const Solid& solid, const double* q, SolidCoupling& coupling);
+    template<int D> void addFacetGroup(const FacetGroup<D>& group, const Solid& solid, const Turning<D>& turning, const double* q, SolidCoupling& coupling);
     template<int D> void sumSwept();
     static constexpr double layerThickness = 0.25;  // of unresolved layers on walls and between solids, over the size of the elements there
     double layerTime(double height) const;
@@ -97,8 +98,8 @@ private:
     template<int D> void coupleLayers();
     template<int D> bool isOfLayer(int e) const;
     template<int D> double layerShare(int s, int e, const double* shape) const;
-    template<int D> void addCoveredFacet(int s, const CoveredFacet& facet, SolidCoupling& coupling);
-    template<int D> void addCoveredVolume(int s, const CoveredVolume& volume, SolidCoupling& coupling);
+    template<int D> void addCoveredFacet(int s, const Turning<D>& turning, const CoveredFacet& facet, SolidCoupling& coupling);
+    template<int D> void addCoveredVolume(int s, const Turning<D>& turning, const CoveredVolume& volume, SolidCoupling& coupling);
     template<int D> void addLayerLoad(int e, int a, const double* load, SolidCoupling& coupling);
     template<int D> void addConductance(int a, int b, double conductance, double hydrostatic);
     template<int D> void assembleGhosts();

@@ -182,7 +182,7 @@ void FlowEquation::addLayerLoad(int e, int a, const double* load, SolidCoupling&
 
 /// The pressure on a piece of what is covered: on its solid, less what solid s has of the layer's content there.
 template<int D>
-void FlowEquation::addCoveredFacet(int s, const CoveredFacet& facet, SolidCoupling& coupling)
+void FlowEquation::addCoveredFacet(int s, const Turning<D>& turning, const CoveredFacet& facet, SolidCoupling& coupling)
 {
     double atCorner[D + 1][RigidArm<D>::nDof] = {};
     for (int q = 0; q < facet.nPoints; ++q)
@@ -191,7 +191,9 @@ void FlowEquation::addCoveredFacet(int s, const CoveredFacet& facet, SolidCoupli
         const double weight = (facet.solid == s) - layerShare<D>(s, facet.element, shape);
         double force[D], load[RigidArm<D>::nDof] = {};
         for (int d = 0; d < D; ++d) force[d] = weight*facet.area[d];
-        RigidArm<D>(mesh_, (*step_.solids)[s], &mesh_.elements[std::size_t(facet.element)*(D + 1)], shape).template addLoads<1>(force, load);
+        RigidArm<D> arm(mesh_, (*step_.solids)[s], &mesh_.elements[std::size_t(facet.element)*(D + 1)], shape);
+        arm.onSurface(turning, facet.area);
+        arm.template addLoads<1>(force, load);
         for (int a = 0; a <= D; ++a)
             for (int d = 0; d < RigidArm<D>::nDof; ++d) atCorner[a][d] += shape[a]*load[d];
     }
@@ -200,7 +202,7 @@ void FlowEquation::addCoveredFacet(int s, const CoveredFacet& facet, SolidCoupli
 
 /// The rest of the share's surface, where one solid's goes over into another's.
 template<int D>
-void FlowEquation::addCoveredVolume(int s, const CoveredVolume& volume, SolidCoupling& coupling)
+void FlowEquation::addCoveredVolume(int s, const Turning<D>& turning, const CoveredVolume& volume, SolidCoupling& coupling)
 {
     constexpr int N = D + 1;
     const int* nodes = &mesh_.elements[std::size_t(volume.element)*N];
@@ -215,7 +217,9 @@ void FlowEquation::addCoveredVolume(int s, const CoveredVolume& volume, SolidCou
         {
             double force[D];
             for (int d = 0; d < D; ++d) force[d] = -volume.second[a*N + b]*ofShare[d];
-            RigidArm<D>(mesh_, (*step_.solids)[s], nodes[b]).template addLoads<1>(force, load);
+            RigidArm<D> arm(mesh_, (*step_.solids)[s], nodes[b]);
+            arm.onSurface(turning, ofShare);
+            arm.template addLoads<1>(force, load);
         }
         addLayerLoad<D>(volume.element, a, load, coupling);
     }
@@ -266,8 +270,9 @@ void FlowEquation::coupleLayers()
     {
         SolidCoupling& coupling = system_.solids[s];
         for (std::size_t k = 0; k < coupling.node.size(); ++k) placeInSolid_[coupling.node[k]] = int(k);
-        for (int k : facetsOf_[s]) addCoveredFacet<D>(int(s), step_.cover->coveredFacets[k], coupling);
-        for (int k : volumesOf_[s]) addCoveredVolume<D>(int(s), step_.cover->coveredVolumes[k], coupling);
+        const Turning<D> turning(mesh_, (*step_.solids)[s]);
+        for (int k : facetsOf_[s]) addCoveredFacet<D>(int(s), turning, step_.cover->coveredFacets[k], coupling);
+        for (int k : volumesOf_[s]) addCoveredVolume<D>(int(s), turning, step_.cover->coveredVolumes[k], coupling);
         for (int i : coupling.node) placeInSolid_[i] = -1;
     }
 }

@@ -72,9 +72,9 @@ double holdOfSolid(const ElementData<D>& e, const int* nodes, const RigidArm<D>*
 
 } // namespace
 
-/// One facet group's terms. q: motion of its solid; coupling: of its solid.
+/// One facet group's terms. turning, q, coupling: of its solid; q its motion.
 template<int D>
-void FlowEquation::addFacetGroup(const FacetGroup<D>& group, const Solid& solid, const double* q, SolidCoupling& coupling)
+void FlowEquation::addFacetGroup(const FacetGroup<D>& group, const Solid& solid, const Turning<D>& turning, const double* q, SolidCoupling& coupling)
 {
     constexpr int N = D + 1, B = D + 1, nDof = RigidArm<D>::nDof;
     ElementData<D> data;
@@ -85,6 +85,7 @@ void FlowEquation::addFacetGroup(const FacetGroup<D>& group, const Solid& solid,
     for (int a = 0; a < N; ++a)
     {
         arm[a] = RigidArm<D>(mesh_, solid, nodes[a]);
+        arm[a].onSurface(turning, group.normal);
         place[a] = placeOf<D>(nodes[a], placeInSolid_, coupling);
     }
     const FacetMotion motion(group, nodes, arm, q, nodal_);
@@ -137,7 +138,8 @@ void FlowEquation::assembleWalls()
         coupling.block.assign(nDof*nDof, 0.0);
         double q[6] = {};
         solidVelocity(mesh_, solids[s], q);
-        for (; g < groups.size() && groups[g].solid == int(s); ++g) addFacetGroup<D>(groups[g], solids[s], q, coupling);
+        const Turning<D> turning(mesh_, solids[s]);
+        for (; g < groups.size() && groups[g].solid == int(s); ++g) addFacetGroup<D>(groups[g], solids[s], turning, q, coupling);
         for (int i : coupling.node) placeInSolid_[i] = -1;
     }
     sumSwept<D>();

@@ -87,16 +87,24 @@ void Fluid::findSurface(const Cover* cover)
 }
 
 /// Inside solids the phase field continues the free surface outside: the nearest plane's profile, so that a plane
-/// reaching into a solid stays a plane; away from the surface the mean of the neighbours nearer to the fluid.
+/// reaching into a solid stays a plane; away from the surface the mean of the neighbours nearer to the fluid. So it is where that differs and the plane comes from farther
+/// away than the fluid on this side does: planes are handed on through solids, and what lies dry behind one would turn wet as it moves on.
 void Fluid::extendPhase()
 {
+    constexpr double unlike = 0.1;  // difference of alpha
+    constexpr double beside = 10;   // from the surface, in widths: there the profile ends
     extendIntoSolids(mesh_, graph_, halo_, *cover_, state_.alpha);
     isLevelKnown_ = false;
     findSurface(cover_);
     for (int i : planes_.nodes())
     {
         if (cover_->isActiveNode[i]) continue;
-        state_.alpha[i] = profileSlab(profileCells(), i, planes_.normal(i), planes_.distance(i), transport_.width()[i]).mean();
+        const double width = transport_.width()[i], mean = profileSlab(profileCells(), i, planes_.normal(i), planes_.distance(i), width).mean();
+        double away2 = 0;   // from the plane's own point
+        for (int d = 0; d < mesh_.dim; ++d) away2 += std::pow(mesh_.x[std::size_t(i)*mesh_.dim + d] - planes_.point(i)[d], 2);
+        const double depth = cover_->distance[i], reach = beside*width;
+        if (std::abs(mean - state_.alpha[i]) > unlike && away2 > depth*depth + reach*reach) continue;
+        state_.alpha[i] = mean;
         level_[i] = planes_.distance(i);
     }
     halo_.update(state_.alpha, 1);

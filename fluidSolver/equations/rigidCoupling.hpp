@@ -7,6 +7,7 @@
 #include "geometry/solid.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace flotsam
 {
@@ -17,13 +18,37 @@ double planeOrientation(const SimplexMesh& mesh);
 /// Motion of a solid as the system's degrees of freedom q (3 in 2D: in-plane velocity, rotation about the empty axis; 6 in 3D).
 void solidVelocity(const SimplexMesh& mesh, const Solid& solid, double* q);
 
+/// Solid::turning() by the system's rotations.
+template<int D>
+struct Turning
+{
+    static constexpr int nAxes = D == 2 ? 1 : 3;
+
+    bool isAny;
+    double projection[nAxes*nAxes];
+
+    Turning(const SimplexMesh& mesh, const Solid& solid)
+    {
+        const Eigen::Matrix3d turning = solid.turning();
+        const auto axisOf = [&](int k) { return D == 2 ? mesh.axes[2] : k; };
+        for (int k = 0; k < nAxes; ++k)
+            for (int l = 0; l < nAxes; ++l) projection[k*nAxes + l] = turning(axisOf(k), axisOf(l));
+        // in 2D an axis askew is none
+        isAny = D == 2 ? projection[0] > 1 - 1e-9 : turning.any();
+    }
+};
+
 /// A rigid motion of a solid at one node, by the solid's degrees of freedom (solidVelocity()).
 template<int D>
 struct RigidArm
 {
-    static constexpr int nDof = D == 2 ? 3 : 6;
+    static constexpr int nDof = D == 2 ? 3 : 6, nAxes = nDof - D;
 
     double r[D];    // from the solid's position; 2D: times the plane's orientation
+    // Of rotations that turn the solid into itself the velocity along a facet's normal is left out: its true surface has none, but a flat facet has, and the fluid's
+    // pressure would set a round log spinning. turn: this velocity by the rotations (nAxes).
+    bool isTurning = false;
+    double normal[D], turn[nAxes];
 
     RigidArm() = default;
     RigidArm(const SimplexMesh& mesh, const Solid& solid, int node)
@@ -44,9 +69,29 @@ struct RigidArm
         }
     }
 
+    /// On a flat piece of the solid's surface; v: along its normal (D).
+    void onSurface(const Turning<D>& turning, const double* v)
+    {
+        double length = 0;
+        for (int d = 0; d < D; ++d) length += v[d]*v[d];
+        if (!turning.isAny || length == 0) return;
+        length = std::sqrt(length);
+        for (int d = 0; d < D; ++d) normal[d] = v[d]/length;
+        double moment[nDof] = {};   // of the normal, behind its force
+        addLoads<1>(normal, moment);
+        for (int k = 0; k < nAxes; ++k)
+        {
+            turn[k] = 0;
+            for (int l = 0; l < nAxes; ++l) turn[k] += turning.projection[k*nAxes + l]*moment[D + l];
+        }
+        isTurning = true;
+    }
+
     /// V + omega x r.
     void velocity(const double* q, double* u) const
     {
+        double alongNormal = 0;
+        for (int k = 0; k < nAxes && isTurning; ++k) alongNormal += turn[k]*q[D + k];
         for (int d = 0; d < D; ++d) u[d] = q[d];
         if constexpr (D == 2)
         {
@@ -54,6 +99,7 @@ struct RigidArm
             u[1] += q[2]*r[0];
         }
         else for (int d = 0; d < D; ++d) u[d] += q[3 + (d + 1) % 3]*r[(d + 2) % 3] - q[3 + (d + 2) % 3]*r[(d + 1) % 3];
+        for (int d = 0; d < D && isTurning; ++d) u[d] -= alongNormal*normal[d];
     }
 
     /// Adds n forces and their moments to `load` (nDof*n): they do the forces' work in every rigid motion. force: component k of the j-th at [k*n + j].
@@ -67,6 +113,12 @@ struct RigidArm
         };
         if constexpr (D == 2) addMoments(0, 1, load + 2*n);
         else for (int d = 0; d < D; ++d) addMoments((d + 1) % 3, (d + 2) % 3, load + (3 + d)*n);
+        for (int j = 0; j < n && isTurning; ++j)
+        {
+            double alongNormal = 0;
+            for (int d = 0; d < D; ++d) alongNormal += normal[d]*force[d*n + j];
+            for (int k = 0; k < nAxes; ++k) load[(D + k)*n + j] -= turn[k]*alongNormal;
+        }
     }
 };
 

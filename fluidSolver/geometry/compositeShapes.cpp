@@ -155,6 +155,12 @@ PlacedShape::PlacedShape(std::shared_ptr<const Shape> shape, const Eigen::Quater
 {
 }
 
+Symmetry PlacedShape::symmetry() const
+{
+    const Symmetry inner = shape_->symmetry();
+    return {inner.kind, toOuter(inner.point), rotation_*inner.axis};
+}
+
 std::array<Vec3, 2> PlacedShape::bounds() const
 {
     const auto b = shape_->bounds();

@@ -28,6 +28,7 @@ class SphereShape : public Shape
 public:
     SphereShape(const Vec3& centre, double radius) : centre_(centre), radius_(radius) {}
     double distance(const Vec3& x) const override { return (x - centre_).norm() - radius_; }
+    Symmetry symmetry() const override { return {Symmetry::Kind::Point, centre_, Vec3::Zero()}; }
     std::array<Vec3, 2> bounds() const override;
     VolumeMoments moments() const override;
     TriSurface surface(double size) const override;
@@ -46,6 +47,7 @@ public:
     CylinderShape(const Vec3& end1, const Vec3& end2, double radius);
     double distance(const Vec3& x) const override;
     int faceDistances(const Vec3& x, double* distances) const override;
+    Symmetry symmetry() const override { return {Symmetry::Kind::Axis, centre_, axis_}; }
     std::array<Vec3, 2> bounds() const override;
     VolumeMoments moments() const override;
     TriSurface surface(double size) const override;
@@ -65,6 +67,7 @@ class CapsuleShape : public Shape
 public:
     CapsuleShape(const Vec3& end1, const Vec3& end2, double radius);
     double distance(const Vec3& x) const override;
+    Symmetry symmetry() const override { return {Symmetry::Kind::Axis, centre_, axis_}; }
     std::array<Vec3, 2> bounds() const override;
     VolumeMoments moments() const override;
     TriSurface surface(double size) const override;
@@ -84,6 +87,7 @@ public:
     PlacedShape(std::shared_ptr<const Shape> shape, const Eigen::Quaterniond& rotation, const Vec3& translation);
     double distance(const Vec3& x) const override { return shape_->distance(toInner(x)); }
     int faceDistances(const Vec3& x, double* distances) const override { return shape_->faceDistances(toInner(x), distances); }
+    Symmetry symmetry() const override;
     std::array<Vec3, 2> bounds() const override;
     VolumeMoments moments() const override;
     TriSurface surface(double size) const override;

@@ -33,6 +33,14 @@ struct TriSurface
 /// Of a box.
 constexpr int maxFaces = 6;
 
+/// Rotations that turn a shape into itself, in its frame: none, about one axis, or all about a point.
+struct Symmetry
+{
+    enum class Kind { None, Axis, Point } kind = Kind::None;
+    Vec3 point = Vec3::Zero();  ///< on the axis [m]
+    Vec3 axis = Vec3::Zero();   ///< unit
+};
+
 /// A closed shape in its own frame. Immutable, safe to share.
 class Shape
 {
@@ -45,6 +53,8 @@ public:
     /// Signed distances [m] from the smooth faces that bound the shape if it is what lies inside of all of them: their number, at most
     /// maxFaces. 0 for other shapes.
     virtual int faceDistances(const Vec3& /*x*/, double* /*distances*/) const { return 0; }
+
+    virtual Symmetry symmetry() const { return {}; }
 
     /// Axis-aligned bounding box {lower, upper} in the shape's frame [m].
     virtual std::array<Vec3, 2> bounds() const = 0;

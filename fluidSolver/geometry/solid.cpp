@@ -13,6 +13,16 @@ std::array<Vec3, 2> Solid::spaceBounds() const
     return {Vec3(centre - half), Vec3(centre + half)};
 }
 
+Eigen::Matrix3d Solid::turning() const
+{
+    const Symmetry symmetry = shape->symmetry();
+    const Vec3 beside = symmetry.point - symmetry.axis*symmetry.axis.dot(symmetry.point);   // of the origin
+    if (symmetry.kind == Symmetry::Kind::None || beside.norm() > 1e-9*radius()) return Eigen::Matrix3d::Zero();
+    if (symmetry.kind == Symmetry::Kind::Point) return Eigen::Matrix3d::Identity();
+    const Vec3 axis = pose.orientation*symmetry.axis;
+    return axis*axis.transpose();
+}
+
 double Solid::radius() const
 {
     const auto [lower, upper] = shape->bounds();

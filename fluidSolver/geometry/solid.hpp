@@ -54,6 +54,8 @@ struct Solid
     double offsetBound() const { return std::abs(offset) + offsetSlope.norm() * radius(); }
     /// Of a sphere about the origin that holds the shape's bounding box [m].
     double radius() const;
+    /// Projection of angular velocities on those about the origin that turn the solid into itself (Shape::symmetry(); zero: none), in space.
+    Eigen::Matrix3d turning() const;
     /// Velocity of the rigid motion at a point in space [m/s].
     Vec3 velocityAt(const Vec3& x) const { return motion.velocity + motion.angularVelocity.cross(x - pose.position); }
     /// Axis-aligned bounding box in space [m].
