@@ -130,13 +130,13 @@ void weighCells(const Foam::fvMesh& mesh, const MeshAdapter& adapter, const Halo
 }
 
 /// reportThinStructures() before a run.
-void checkThinStructures(const MeshAdapter& adapter, const Halo& halo, const std::vector<StructureDefinition>& structures)
+void checkThinStructures(const MeshAdapter& adapter, const Halo& halo, const BodiesInput& bodies)
 {
-    if (structures.empty()) return;
+    if (bodies.structures.empty()) return;
     std::vector<Solid> solids;
-    for (const StructureDefinition& s : structures) solids.push_back(s.solid);
+    for (const StructureDefinition& s : bodies.structures) solids.push_back(s.solid);
     const NodeGraph graph(adapter.mesh);
-    reportThinStructures(adapter.mesh, graph, halo, cutMesh(adapter.mesh, graph, halo, solids), structures, solids.size());
+    reportThinStructures(adapter.mesh, graph, halo, cutMesh(adapter.mesh, graph, halo, solids), bodies, solids.size());
 }
 
 /// Axis along which gravity acts most; -1: none.
@@ -236,7 +236,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     if (task == Task::Check)
     {
         RunOutput(runTime, adapter.mesh, halo, bodies, timers).checkStart();
-        checkThinStructures(adapter, halo, bodies.structures);
+        checkThinStructures(adapter, halo, bodies);
         writeNumerics(Foam::Info, controls.numerics);
     }
     if (task == Task::WeighCells) weighCells(mesh, adapter, halo, bodies);
@@ -248,7 +248,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     RunOutput output(runTime, adapter.mesh, halo, bodies, timers);
     start(step, output, fields, runTime);
     if (!bodies.structures.empty())
-        reportThinStructures(adapter.mesh, step.fluid().graph(), halo, *step.cover(), bodies.structures, step.scene().solids().size());
+        reportThinStructures(adapter.mesh, step.fluid().graph(), halo, *step.cover(), bodies, step.scene().solids().size());
     WriteTimes writeTimes(runTime, output.firstStart(), output.lastStep());
     output.begin(step);
     mesh.primitiveMesh::clearAddressing();  // cells, edges and the like that only the start needed; the geometry must stay: fields of the fvMesh are slices of it

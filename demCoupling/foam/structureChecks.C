@@ -61,6 +61,36 @@ void warnOutside(const BodiesInput& input)
     }
 }
 
+/// Whether a structure's box lies in that of another one.
+bool liesInOther(const std::vector<StructureDefinition>& structures, std::size_t s)
+{
+    const auto inner = boundsOf(structures[s]);
+    for (std::size_t other = 0; other < structures.size(); ++other)
+    {
+        if (other == s) continue;
+        const auto outer = boundsOf(structures[other]);
+        if ((outer[0].array() <= inner[0].array()).all() && (inner[1].array() <= outer[1].array()).all()) return true;
+    }
+    return false;
+}
+
+/// The first few of many, for a message.
+class ShortList
+{
+public:
+    void add(const std::string& entry)
+    {
+        if (++count_ <= most_) text_ += (count_ > 1 ? "; " : "") + entry;
+    }
+    bool isEmpty() const { return count_ == 0; }
+    std::string text() const { return count_ > most_ ? flotsam::text(text_, " and ", count_ - most_, " more") : text_; }
+
+private:
+    static constexpr int most_ = 3;
+    int count_ = 0;
+    std::string text_;
+};
+
 } // namespace
 
 StructureOverlaps findOverlaps(const std::vector<StructureDefinition>& structures, const SceneFrame& frame)
@@ -96,23 +126,24 @@ void reportStructures(const BodiesInput& input, const SceneFrame& frame)
         << name(a) << " and " << name(b) << ". Together they are one solid; each gets the force on its part of the surface" << Foam::nl;
 }
 
-void reportThinStructures(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const Cover& cover, const std::vector<StructureDefinition>& structures,
-    std::size_t nSolids)
+void reportThinStructures(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const Cover& cover, const BodiesInput& input, std::size_t nSolids)
 {
-    constexpr int mostNames = 3;
     const std::vector<SharedNodes> shared = findSharedNodes(mesh, graph, halo, cover, nSolids);
-    int nThin = 0;
-    std::string names;
-    for (std::size_t s = 0; s < structures.size(); ++s)
+    ShortList seeping, unseen;
+    for (std::size_t s = 0; s < input.structures.size(); ++s)
     {
-        if (shared[s].count == 0 || ++nThin > mostNames) continue;
+        const StructureDefinition& structure = input.structures[s];
         const auto& x = shared[s].middle;
-        names += text(names.empty() ? "" : "; ", structures[s].solid.name, ", ", shared[s].count, shared[s].count == 1 ? " node around (" : " nodes around (",
-            x[0], " ", x[1], " ", x[2], ")");
+        if (shared[s].count > 0)
+            seeping.add(text(structure.solid.name, ", ", shared[s].count, shared[s].count == 1 ? " node around (" : " nodes around (", x[0], " ", x[1], " ", x[2], ")"));
+        if (cover.solidVolume[s] <= 0 && !structure.motion && boxesMeet(boundsOf(structure), input.box) && !liesInOther(input.structures, s)) unseen.add(structure.solid.name);
     }
-    if (nThin == 0) return;
-    Foam::Info<< "Warning: fluid seeps through structures that are thinner than two elements, where it has nodes in common on both sides: " << names.c_str()
-        << (nThin > mostNames ? text(" and ", nThin - mostNames, " more").c_str() : "") << ". Refine the mesh there, or make them thicker" << Foam::nl << Foam::endl;
+    if (!unseen.isEmpty())
+        Foam::Info<< "Warning: the flow does not know of structures that are thinner than an element and have no node of the mesh inside: " << unseen.text().c_str()
+            << ". Refine the mesh there, or make them thicker" << Foam::nl << Foam::endl;
+    if (!seeping.isEmpty())
+        Foam::Info<< "Warning: fluid seeps through structures that are thinner than two elements, where it has nodes in common on both sides: " << seeping.text().c_str()
+            << ". Refine the mesh there, or make them thicker" << Foam::nl << Foam::endl;
 }
 
 } // namespace flotsam

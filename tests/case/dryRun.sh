@@ -38,7 +38,10 @@ setEntry bar/system/controlDict endTime 0.008
 rm bar/log.*
 leavesAlone bar 0 'the stored state continues, exactly' flotsamFoam -dry-run
 
+# pipes of a few elements: fluid seeps through, the same nodes on one process and on two
 makeJam jam
-leavesAlone jam 0 '^End' flotsamFoam -dry-run
+leavesAlone jam 0 '^Warning: fluid seeps through .*: pipes.0, [0-9]* nodes around' flotsamFoam -dry-run
+grep '^Warning: fluid seeps' log.txt > serial.txt
 (cd jam && quietly decomposePar) || exit
 leavesAlone jam 0 '^End' mpirun -np 2 flotsamFoam -parallel -dry-run
+diff <(sed 's/(.*//' serial.txt) <(grep '^Warning: fluid seeps' log.txt | sed 's/(.*//') || fail "other nodes on two processes"
