@@ -39,7 +39,7 @@ constexpr double largestOvershoot = 0.01;
 
 void checkFractions(const Foam::volScalarField& alpha, const Halo& halo)
 {
-    double low = 0, high = 1;
+    double low = 0, high = 0;
     for (const double a : alpha.primitiveField())
     {
         low = std::min(low, a);
@@ -47,6 +47,9 @@ void checkFractions(const Foam::volScalarField& alpha, const Halo& halo)
     }
     low = halo.min(low);
     high = halo.max(high);
+    if (high <= 0)
+        Foam::Info<< "Warning: field " << alpha.name() << " of time " << alpha.time().timeName() << " has no liquid in any cell (setFields, setExprFields or setAlphaField"
+            << " not run?): nothing flows but what comes in through patches" << Foam::nl << Foam::endl;
     if (low >= -largestOvershoot && high <= 1 + largestOvershoot) return;
     FatalErrorInFunction << "Field " << alpha.name() << " of time " << alpha.time().timeName() << " has cells from " << low << " to " << high
         << ": it is the liquid's share of their volume, from 0 to 1." << Foam::exit(Foam::FatalError);

@@ -93,6 +93,8 @@ rm -rf misnamed && cp -r good misnamed && mv misnamed/constant/bodies misnamed/c
 rm -rf beside && cp -r good beside
 echo 'structures { pier { shape { type cylinder; end1 (5 0 0); end2 (5 0 0.05); radius 0.01; } } }' >> beside/constant/bodies
 (cd beside && quietly flotsamFoam -dry-run && grep -q 'structure pier lies outside of the mesh' log.flotsamFoam) || fail "a structure beside the mesh is not mentioned"
+rm -rf dry && cp -r good dry
+(cd dry && cp 0.orig/alpha.water 0/alpha.water && quietly flotsamFoam -dry-run && grep -q 'alpha.water of time 0 has no liquid' log.flotsamFoam) || fail "a tank without liquid is not mentioned"
 rm -rf thin && cp -r good thin
 echo 'structures { gate { shape { type box; size (1e-6 0.01 0.1); } position (0.0512345 0 0.025); } }' >> thin/constant/bodies
 (cd thin && quietly flotsamFoam -dry-run && grep -q 'flow does not know of structures .* inside: gate\.' log.flotsamFoam) || fail "a structure between the nodes is not mentioned"

@@ -262,9 +262,11 @@ def waterLevel(case, time, stations, method="integral", up=2, alpha=ALPHA, nSamp
 
 
 def waterVolume(case, time, alpha=ALPHA):
-    """Liquid volume in the cells [m^3]: sum of alpha V."""
-    data = fields(case, time, [alpha])
-    return float((data[alpha] * data["volume"]).sum())
+    """Liquid volume in the cells [m^3]: sum of alpha (1 - solid) V, alpha being that of a cell's fluid part. At the start there is no field `solid`: the sum of alpha V."""
+    solid = "solid" if grid(case, time).GetCellData().HasArray("solid") else None
+    data = fields(case, time, [alpha, *([solid] if solid else [])])
+    fluid = 1 - data[solid] if solid else 1
+    return float((data[alpha] * fluid * data["volume"]).sum())
 
 
 def waterSurface(case, time, alpha=ALPHA, level=0.5):
