@@ -100,6 +100,14 @@ class Fields(unittest.TestCase):
                 np.testing.assert_allclose(bounds, [0, LENGTH, 0, WIDTH, LEVEL, LEVEL], atol=1e-6)
                 self.assertEqual(flotsam.grid(folder, 0).GetNumberOfPoints(), 9 * 2 * 9)
 
+    def test_volume_beside_solids(self):
+        with tempfile.TemporaryDirectory() as folder:
+            writeCase(folder, False)
+            _write(os.path.join(folder, "0.5", "solid"), "volScalarField",
+                   "dimensions [0 0 0 0 0 0 0];\ninternalField uniform 0.25;\nboundaryField { walls { type zeroGradient; } }")
+            self.assertAlmostEqual(flotsam.waterVolume(folder, 0), LENGTH * WIDTH * LEVEL, places=6)
+            self.assertAlmostEqual(flotsam.waterVolume(folder, 0.5), 0.75 * LENGTH * WIDTH * (LEVEL + 0.5 * 0.125), places=6)
+
     def test_mistakes_are_named(self):
         with tempfile.TemporaryDirectory() as folder:
             writeCase(folder, False)
