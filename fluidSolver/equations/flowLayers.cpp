@@ -194,6 +194,7 @@ void FlowEquation::addCoveredFacet(int s, const Turning<D>& turning, const Cover
         RigidArm<D> arm(mesh_, (*step_.solids)[s], &mesh_.elements[std::size_t(facet.element)*(D + 1)], shape);
         arm.onSurface(turning, facet.area);
         arm.template addLoads<1>(force, load);
+        arm.template removeTurning<1>(0, force, load);
         for (int a = 0; a <= D; ++a)
             for (int d = 0; d < RigidArm<D>::nDof; ++d) atCorner[a][d] += shape[a]*load[d];
     }
@@ -220,6 +221,7 @@ void FlowEquation::addCoveredVolume(int s, const Turning<D>& turning, const Cove
             RigidArm<D> arm(mesh_, (*step_.solids)[s], nodes[b]);
             arm.onSurface(turning, ofShare);
             arm.template addLoads<1>(force, load);
+            arm.template removeTurning<1>(0, force, load);
         }
         addLayerLoad<D>(volume.element, a, load, coupling);
     }

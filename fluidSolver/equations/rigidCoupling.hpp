@@ -45,8 +45,8 @@ struct RigidArm
     static constexpr int nDof = D == 2 ? 3 : 6, nAxes = nDof - D;
 
     double r[D];    // from the solid's position; 2D: times the plane's orientation
-    // Of rotations that turn the solid into itself the velocity along a facet's normal is left out: its true surface has none, but a flat facet has, and the fluid's
-    // pressure would set a round log spinning. turn: this velocity by the rotations (nAxes).
+    // Pressure has no moment about axes around which the solid turns into itself: on its true surface it has none, on a flat facet it has, and would set a round log
+    // spinning. turn: this moment of the facet's unit normal (nAxes).
     bool isTurning = false;
     double normal[D], turn[nAxes];
 
@@ -69,7 +69,7 @@ struct RigidArm
         }
     }
 
-    /// On a flat piece of the solid's surface; v: along its normal (D).
+    /// On a flat piece of the solid's surface, for removeTurning(); v: along its normal (D).
     void onSurface(const Turning<D>& turning, const double* v)
     {
         double length = 0;
@@ -90,8 +90,6 @@ struct RigidArm
     /// V + omega x r.
     void velocity(const double* q, double* u) const
     {
-        double alongNormal = 0;
-        for (int k = 0; k < nAxes && isTurning; ++k) alongNormal += turn[k]*q[D + k];
         for (int d = 0; d < D; ++d) u[d] = q[d];
         if constexpr (D == 2)
         {
@@ -99,7 +97,6 @@ struct RigidArm
             u[1] += q[2]*r[0];
         }
         else for (int d = 0; d < D; ++d) u[d] += q[3 + (d + 1) % 3]*r[(d + 2) % 3] - q[3 + (d + 2) % 3]*r[(d + 1) % 3];
-        for (int d = 0; d < D && isTurning; ++d) u[d] -= alongNormal*normal[d];
     }
 
     /// Adds n forces and their moments to `load` (nDof*n): they do the forces' work in every rigid motion. force: component k of the j-th at [k*n + j].
@@ -113,12 +110,16 @@ struct RigidArm
         };
         if constexpr (D == 2) addMoments(0, 1, load + 2*n);
         else for (int d = 0; d < D; ++d) addMoments((d + 1) % 3, (d + 2) % 3, load + (3 + d)*n);
-        for (int j = 0; j < n && isTurning; ++j)
-        {
-            double alongNormal = 0;
-            for (int d = 0; d < D; ++d) alongNormal += normal[d]*force[d*n + j];
-            for (int k = 0; k < nAxes; ++k) load[(D + k)*n + j] -= turn[k]*alongNormal;
-        }
+    }
+
+    /// Takes the moments about axes of symmetry (onSurface()) of the j-th of n forces, a pressure's, out of what addLoads() has added.
+    template<int n>
+    void removeTurning(int j, const double* force, double* load) const
+    {
+        if (!isTurning) return;
+        double alongNormal = 0;
+        for (int d = 0; d < D; ++d) alongNormal += normal[d]*force[d*n + j];
+        for (int k = 0; k < nAxes; ++k) load[(D + k)*n + j] -= turn[k]*alongNormal;
     }
 };
 
@@ -138,6 +139,7 @@ struct RigidBlocks
             for (int r = 0; r < B; ++r) transposed[k*B + r] = m[r*B + k];
         arm[b].template addLoads<B>(transposed, column[a]);
         arm[a].template addLoads<B>(m, row[b]);
+        arm[a].template removeTurning<B>(D, m, row[b]);
     }
 
     void subtractColumn(int a, double* sum) const
