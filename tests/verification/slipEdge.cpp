@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Slip patches that meet in a re-entrant edge, as on a box that is left out of the mesh: potential flow around it, a jet that leaves it, water at rest on it.
-#include "equations/fluid.hpp"
 #include "support/errorTable.hpp"
-#include "support/flowCases.hpp"
+#include "support/potentialFlow.hpp"
 
 #include <doctest/doctest.h>
 
@@ -53,42 +52,8 @@ std::vector<BoundaryPatch> patches(const SimplexMesh& mesh, bool isClosed)
 {
     std::vector<BoundaryPatch> result = allPatches(mesh, BoundaryPatch::Velocity::Slip);
     if (isClosed) return result;
-    for (int p : {0, 1, 3})
-    {
-        result[p] = makePatch(mesh, p, BoundaryPatch::Velocity::Open);
-        const std::vector<int> nodes = result[p].nodes;
-        result[p].evaluate = [&mesh, nodes](const BoundaryState&, PatchValues& values)
-        {
-            values.pressure.clear();
-            for (int i : nodes) values.pressure.push_back(-potential(&mesh.x[std::size_t(i)*mesh.dim])/dt);
-            values.alpha.assign(nodes.size(), 1);
-        };
-    }
+    for (int p : {0, 1, 3}) result[p] = drivenPatch(mesh, p, dt, potential);
     return result;
-}
-
-FluidProperties oneFluid()
-{
-    FluidProperties properties;
-    properties.isTwoPhase = false;
-    properties.rhoLiquid = 1;
-    properties.muLiquid = 1e-8;
-    return properties;
-}
-
-/// Fluid after one step from rest, which is the potential flow that the boundary asks for.
-FlowState afterOneStep(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& properties, bool isClosed)
-{
-    usePetsc();
-    NumericsControls controls;
-    controls.tolerance = 1e-10;
-    Fluid fluid(mesh, halo, properties, controls, patches(mesh, isClosed));
-    fluid.start(restState(mesh), true);
-    fluid.beginStep(dt);
-    fluid.assemble();
-    REQUIRE(fluid.solve({}).hasConverged);
-    fluid.endStep();
-    return fluid.state();
 }
 
 /// Nodal L2 error over the flow's own norm, without the ridge.
@@ -96,21 +61,8 @@ double cornerError(int dim, int n)
 {
     const SimplexMesh mesh = ridgeMesh(dim, n);
     const Halo halo(mesh, MPI_COMM_WORLD);
-    const FlowState state = afterOneStep(mesh, halo, oneFluid(), false);
-    double error = 0, norm = 0;
-    for (int i = 0; i < mesh.nOwned; ++i)
-    {
-        const double* x = &mesh.x[std::size_t(i)*dim];
-        if (std::hypot(x[0], x[1]) == 0) continue;
-        const std::array<double, 2> exact = cornerFlow(x);
-        for (int d = 0; d < 2; ++d)
-        {
-            const double e = state.u[std::size_t(i)*dim + d] - exact[d];
-            error += e*e;
-            norm += exact[d]*exact[d];
-        }
-    }
-    return std::sqrt(halo.sum(error)/halo.sum(norm));
+    return planeFlowError(mesh, halo, afterOneStep(mesh, halo, oneFluid(1, 1e-8), patches(mesh, false), dt), cornerFlow,
+        [](const double* x) { return std::hypot(x[0], x[1]) == 0; });
 }
 
 ErrorTable study(const char* title, int dim, const std::vector<int>& sizes)
@@ -125,12 +77,9 @@ double largestSpeedAtRest(int dim, int n)
 {
     const SimplexMesh mesh = ridgeMesh(dim, n);
     const Halo halo(mesh, MPI_COMM_WORLD);
-    FluidProperties properties = oneFluid();
+    FluidProperties properties = oneFluid(1, 1e-8);
     properties.gravity = {3, -8, dim == 3 ? 4. : 0.};
-    const FlowState state = afterOneStep(mesh, halo, properties, true);
-    double largest = 0;
-    for (int i = 0; i < mesh.nOwned*dim; ++i) largest = std::max(largest, std::abs(state.u[i]));
-    return halo.max(largest);
+    return largestComponent(mesh, halo, afterOneStep(mesh, halo, properties, patches(mesh, true), dt));
 }
 
 /// Of the velocity at the ridge what goes into the wall that a stream came along, over its speed. The stream starts with that wall's direction everywhere
@@ -143,7 +92,7 @@ double enteringShare(int dim, int n)
     std::vector<BoundaryPatch> boundary = patches(mesh, true);
     for (int p : {0, 1, 3}) boundary[p] = makePatch(mesh, p, BoundaryPatch::Velocity::Open);
     NumericsControls controls;
-    Fluid fluid(mesh, halo, oneFluid(), controls, boundary);
+    Fluid fluid(mesh, halo, oneFluid(1, 1e-8), controls, boundary);
     FlowState start = restState(mesh);
     for (int i = 0; i < mesh.nNodes; ++i)
         for (int d = 0; d < 2; ++d) start.u[std::size_t(i)*dim + d] = std::sqrt(0.5);
