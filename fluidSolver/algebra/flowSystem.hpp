@@ -31,6 +31,7 @@ struct SolidCoupling
     std::vector<double> column; ///< node.size()*(dim+1)*nDof: rows of the node, columns of the solid
     std::vector<double> row;    ///< node.size()*nDof*(dim+1): rows of the solid; only this rank's own elements
     std::vector<double> block;  ///< nDof*nDof solid-solid; only this rank's own elements
+    std::vector<double> load;   ///< nDof: of the fluid besides the rows; all ranks' elements
     bool isFree = false;
     std::vector<double> inertia; ///< nDof*nDof mass matrix / dt (free solids; same on every rank)
     std::vector<double> rhs;     ///< nDof: history, weight, contact (free solids; same on every rank)

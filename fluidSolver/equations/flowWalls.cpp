@@ -143,6 +143,34 @@ void FlowEquation::assembleWalls()
         for (int i : coupling.node) placeInSolid_[i] = -1;
     }
     sumSwept<D>();
+    addSurfacePressure<D>();
+}
+
+/// The load of the surface's own pressure on the solids: no unknown is in it.
+template<int D>
+void FlowEquation::addSurfacePressure()
+{
+    constexpr int N = D + 1, nDof = RigidArm<D>::nDof;
+    const std::vector<Solid>& solids = *step_.solids;
+    std::vector<double> loads(solids.size()*nDof);
+    for (std::size_t k = 0; step_.surfacePressure && k < step_.surfacePressure->size(); ++k)
+    {
+        const FacetPressure& facet = (*step_.surfacePressure)[k];
+        if (!mesh_.isOwnedElement[facet.element]) continue;
+        const Solid& solid = solids[facet.solid];
+        double* load = &loads[std::size_t(facet.solid)*nDof];
+        for (int a = 0; a < N; ++a)
+        {
+            RigidArm<D> arm(mesh_, solid, mesh_.elements[std::size_t(facet.element)*N + a]);
+            arm.onSurface(Turning<D>(mesh_, solid), facet.normal);
+            double force[D];
+            for (int d = 0; d < D; ++d) force[d] = facet.first[a]*facet.normal[d];
+            arm.template addLoads<1>(force, load);
+            arm.template removeTurning<1>(0, force, load);
+        }
+    }
+    if (step_.surfacePressure) halo_.sum(loads.data(), int(loads.size()));
+    for (std::size_t s = 0; s < solids.size(); ++s) system_.solids[s].load.assign(&loads[s*nDof], &loads[s*nDof] + nDof);
 }
 
 /// What elements around a node give, where fluid appears, does not make up for what is swept out of others: bodies that rock on each other open and close a
@@ -168,26 +196,26 @@ void FlowEquation::setFreeBodies(const std::vector<FreeBody>& bodies, double dt)
         if (!solid.isFree) continue;
         const FreeBody& body = bodies[f++];
         solid.inertia.assign(n*n, 0.0);
-        solid.rhs.assign(n, 0.0);
+        solid.rhs = solid.load;
         const double share = 1/body.newLoadShare; // the fluid's load, the solid's rows, as it is
         const double scale = share/mesh_.thickness; // 2D equations are per unit thickness
         for (int d = 0; d < dim; ++d)
         {
             const int axis = mesh_.axes[d];
             solid.inertia[d*n + d] = scale*body.mass/dt;
-            solid.rhs[d] = scale*(body.mass*body.velocity[axis]/dt + body.force[axis]);
+            solid.rhs[d] += scale*(body.mass*body.velocity[axis]/dt + body.force[axis]);
         }
         if (dim == 2)
         {
             const int axis = mesh_.axes[2];
             solid.inertia[2*n + 2] = scale*body.inertia(axis, axis)/dt;
-            solid.rhs[2] = scale*(body.angularMomentum[axis]/dt + body.moment[axis]);
+            solid.rhs[2] += scale*(body.angularMomentum[axis]/dt + body.moment[axis]);
             continue;
         }
         for (int r = 0; r < 3; ++r)
         {
             for (int c = 0; c < 3; ++c) solid.inertia[(3 + r)*n + 3 + c] = share*body.inertia(r, c)/dt;
-            solid.rhs[3 + r] = share*(body.angularMomentum[r]/dt + body.moment[r]);
+            solid.rhs[3 + r] += share*(body.angularMomentum[r]/dt + body.moment[r]);
         }
     }
 }

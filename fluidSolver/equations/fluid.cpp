@@ -147,6 +147,7 @@ void Fluid::assemble()
     step.solids = solids_;
     step.patchValues = &values_;
     step.elementForce = &force_;
+    step.surfacePressure = &surfacePressure_;
     step.fineScale = &state_.fineScale;
     step.transport = fluid_.isTwoPhase && !supg_ ? &transport_ : nullptr;
     step.massFluxes = step.transport && controls_.surfaceTimeOrder == 2 ? &massFluxes_ : nullptr;
@@ -189,6 +190,8 @@ std::vector<Fluid::SolidLoad> Fluid::solidLoads() const
     const FlowSystem& system = equation_.system();
     std::vector<double> rows(q_.size());
     FlowOperator(graph_, halo_, system, mesh_.nOwned).solidRows(x_.data(), q_.data(), rows.data());
+    for (std::size_t s = 0; s < system.solids.size(); ++s)
+        for (int d = 0; d < system.nDof; ++d) rows[s*system.nDof + d] -= system.solids[s].load[d];
     std::vector<SolidLoad> loads(system.solids.size(), {Vec3::Zero(), Vec3::Zero()});
     for (std::size_t s = 0; s < loads.size(); ++s)
     {

@@ -141,6 +141,7 @@ private:
     ShutPockets pockets_;
     const std::vector<Solid>* solids_ = nullptr;
     TimeScheme time_;
+    std::vector<FacetPressure> surfacePressure_;
     std::vector<double> force_;         // nElements*dim; empty between advancePhase() and setGravity()
     std::vector<double> x_, q_;         // solution: nNodes*(dim+1), nDof per solid; x_ is empty between advancePhase() and solve()
     std::vector<PairFlux> ghostFlux_;   // of the last accepted solve

@@ -118,7 +118,7 @@ std::vector<double> Fluid::nodalDensity() const
     return rho;
 }
 
-/// Gravity per element, into force_; cover: of what is computed.
+/// Gravity per element, into force_, and what it leaves out of the load on solids, into surfacePressure_; cover: of what is computed.
 void Fluid::setGravity(const Cover* cover)
 {
     const std::vector<double> rho = nodalDensity();
@@ -130,6 +130,7 @@ void Fluid::setGravity(const Cover* cover)
         surfaceDensity(mesh_, fluid_, controls_, planes_, transport_.width(), state_.alpha, ofSurface);
     }
     gravityForce(mesh_, fluid_.gravity, rho, isBalanced ? &planes_ : nullptr, ofSurface, cover, force_);
+    surfacePressure_ = isBalanced && cover ? surfacePressure(mesh_, fluid_, planes_, ofSurface, level_, *cover) : std::vector<FacetPressure>{};
 }
 
 } // namespace flotsam

@@ -114,33 +114,41 @@ void gravityForceT(const SimplexMesh& mesh, const std::array<double, 3>& gravity
     result.resize(std::size_t(mesh.nElements)*dim);
     for (int e = 0; e < mesh.nElements; ++e)
     {
-        const int* nodes = &mesh.elements[std::size_t(e)*n];
-        bool isBalanced = planes != nullptr;
-        for (int a = 0; a < n; ++a) isBalanced = isBalanced && planes->has(nodes[a]);
-        if (isBalanced)
-        {
-            const auto [lightest, heaviest] = std::minmax_element(nodes, nodes + n, [&](int i, int j) { return ofSurface[i] < ofSurface[j]; });
-            isBalanced = ofSurface[*heaviest] - ofSurface[*lightest] > sameDensity*ofSurface[*heaviest];
-        }
+        double potential[n];
+        const bool isBalanced = planes && balancedPotentials<dim>(mesh, g, *planes, ofSurface, e, potential);
         double* f = &result[std::size_t(e)*dim];
         const double weight = meanOf<dim>(mesh, cover, e, rho) - (isBalanced ? meanOf<dim>(mesh, cover, e, ofSurface) : 0);
         for (int d = 0; d < dim; ++d) f[d] = weight*g[d];
-        if (!isBalanced) continue;
-        double gradRho[dim] = {};
-        for (int a = 0; a < n; ++a)
-            for (int d = 0; d < dim; ++d) gradRho[d] += mesh.gradN[(std::size_t(e)*n + a)*dim + d]*ofSurface[nodes[a]];
-        const double foot = elementPotential<dim>(mesh, g, *planes, e, gradRho);
-        for (int a = 0; a < n; ++a)
-        {
-            double potential = -foot;
-            for (int d = 0; d < dim; ++d) potential += g[d]*mesh.x[std::size_t(nodes[a])*dim + d];
+        for (int a = 0; isBalanced && a < n; ++a)
             for (int d = 0; d < dim; ++d)
-                f[d] += mesh.gradN[(std::size_t(e)*n + a)*dim + d]*ofSurface[nodes[a]]*potential;
-        }
+                f[d] += mesh.gradN[(std::size_t(e)*n + a)*dim + d]*ofSurface[mesh.elements[std::size_t(e)*n + a]]*potential[a];
     }
 }
 
 } // namespace
+
+template<int dim>
+bool balancedPotentials(const SimplexMesh& mesh, const double* g, const InterfacePlanes& planes, const std::vector<double>& ofSurface, int e, double* potential)
+{
+    constexpr int n = dim + 1;
+    const int* nodes = &mesh.elements[std::size_t(e)*n];
+    if (!std::all_of(nodes, nodes + n, [&](int i) { return planes.has(i); })) return false;
+    const auto [lightest, heaviest] = std::minmax_element(nodes, nodes + n, [&](int i, int j) { return ofSurface[i] < ofSurface[j]; });
+    if (ofSurface[*heaviest] - ofSurface[*lightest] <= sameDensity*ofSurface[*heaviest]) return false;
+    double gradRho[dim] = {};
+    for (int a = 0; a < n; ++a)
+        for (int d = 0; d < dim; ++d) gradRho[d] += mesh.gradN[(std::size_t(e)*n + a)*dim + d]*ofSurface[nodes[a]];
+    const double foot = elementPotential<dim>(mesh, g, planes, e, gradRho);
+    for (int a = 0; a < n; ++a)
+    {
+        potential[a] = -foot;
+        for (int d = 0; d < dim; ++d) potential[a] += g[d]*mesh.x[std::size_t(nodes[a])*dim + d];
+    }
+    return true;
+}
+
+template bool balancedPotentials<2>(const SimplexMesh&, const double*, const InterfacePlanes&, const std::vector<double>&, int, double*);
+template bool balancedPotentials<3>(const SimplexMesh&, const double*, const InterfacePlanes&, const std::vector<double>&, int, double*);
 
 void surfaceDensity(const SimplexMesh& mesh, const FluidProperties& fluid, const NumericsControls& controls, const InterfacePlanes& planes,
     const std::vector<double>& width, const std::vector<double>& alpha, std::vector<double>& result)

@@ -23,6 +23,10 @@ void surfaceDensity(const SimplexMesh& mesh, const FluidProperties& fluid, const
 /// Planes for every node where alpha may weigh: over gravityLayers rings at least, in thin elements (rings are closer than the profile is wide) over more.
 InterfacePlanes::Extent planesExtent(const NumericsControls& controls, const std::vector<double>& width);
 
+/// g.(x_k - x_G) of an element's nodes [m^2/s^2]. False: f = rho g there. g: in-plane components. ofSurface: surfaceDensity().
+template<int dim>
+bool balancedPotentials(const SimplexMesh& mesh, const double* g, const InterfacePlanes& planes, const std::vector<double>& ofSurface, int e, double* potential);
+
 /// result: nElements*dim [N/m^3]. rho, ofSurface (surfaceDensity()): nNodes. planes: null or empty: f = rho_e g everywhere.
 void gravityForce(const SimplexMesh& mesh, const std::array<double, 3>& gravity, const std::vector<double>& rho,
     const InterfacePlanes* planes, const std::vector<double>& ofSurface, const Cover* cover, std::vector<double>& result);

@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Round bodies at the surface of water at rest do not start to turn about their axes, however coarse the mesh: pressure has no moment about them.
-#include "equations/fluid.hpp"
-#include "equations/initialProfile.hpp"
-#include "equations/surfaceLevel.hpp"
-#include "geometry/coverBuilder.hpp"
-#include "support/cutFlows.hpp"
-#include "support/flowCases.hpp"
-
-#include <doctest/doctest.h>
+#include "support/floatingBody.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -17,54 +10,22 @@ using namespace flotsam;
 namespace
 {
 
-constexpr double gravity = 10; // [m/s^2]
-constexpr int n = 10, nPlaces = 6;
+constexpr int nPlaces = 6;
 
 /// Largest angular acceleration about the axes of symmetry in the first step, of what the weight at the arm of a radius gives. Half immersed, density half of water's.
 double spinUp(int dim, std::shared_ptr<const Shape> shape, double radius)
 {
-    usePetsc();
-    const SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, dim, {n, n, n}, {0, 0, 0}, {1, 1, 1}, 0.12);
-    const Halo halo(mesh, MPI_COMM_WORLD);
-    FluidProperties properties;
-    properties.gravity[dim - 1] = -gravity;
-    NumericsControls controls;
-    controls.tolerance = 1e-10;
-    controls.maxIterations = 500;
-    const double mass = 500*shape->moments().volume, inertia = mass*radius*radius/2, dt = 0.002;
-    const DualCells cells(mesh);
+    Solid solid;
+    solid.shape = shape;
+    FloatingBody body(dim, shape, 500, radius);
     double largest = 0;
     for (int k = 0; k < nPlaces; ++k)
     {
-        Fluid fluid(mesh, halo, properties, controls, allPatches(mesh, BoundaryPatch::Velocity::Slip));
-        std::vector<Solid> solids(1);
-        solids[0].kind = Solid::Kind::Free;
-        solids[0].shape = shape;
-        solids[0].pose.position = Vec3(0.5, 0.5, 0.5) + (haltonPoint(k) - Vec3::Constant(0.5))/n;
-        const double level = solids[0].pose.position[dim - 1];
-        FlowState state = restState(mesh);
-        double up[3] = {};
-        up[dim - 1] = -1;
-        const std::vector<double> width = interfaceWidth(mesh, fluid.graph(), halo, controls.interfaceWidth);
-        for (int i = 0; i < mesh.nNodes; ++i)
-            state.alpha[i] = profileSlab(&cells, i, up, level - mesh.x[std::size_t(i)*dim + dim - 1], width[i]).mean();
-        halo.update(state.alpha, 1);
-        state.alphaOld = state.alphaOlder = state.alpha;
-        fluid.start(std::move(state), false);
-        CoverBuilder builder(mesh, fluid.graph(), halo);
-        for (int pass = 0; pass < 6; ++pass) builder.buildExactVolume(solids);
-        fluid.setGeometry(&builder.cover(), &solids, true);
-        FreeBody body;
-        body.mass = mass;
-        body.inertia = Eigen::Matrix3d::Identity()*inertia;
-        body.force[dim - 1] = -gravity*mass;
-        fluid.beginStep(dt);
-        fluid.assemble();
-        REQUIRE(fluid.solve({body}).hasConverged);
-        const Vec3 spin = solids[0].turning()*fluid.solidMotions()[0].angularVelocity;
-        largest = std::max(largest, spin.norm()*inertia/(dt*mass*gravity*radius));
+        const Vec3 position = Vec3(0.5, 0.5, 0.5) + (haltonPoint(k) - Vec3::Constant(0.5))/FloatingBody::n;
+        const Vec3 spin = solid.turning()*body.release(position, position[dim - 1]).angularVelocity;
+        largest = std::max(largest, spin.norm()*body.inertia()/(body.mass()*FloatingBody::gravity*radius));
     }
-    std::printf("%dD, %.1f elements a diameter: %.1e\n", dim, 2*radius*n, largest);
+    std::printf("%dD, %.1f elements a diameter: %.1e\n", dim, 2*radius*FloatingBody::n, largest);
     return largest;
 }
 

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "equations/surfacePressure.hpp"
+
+#include "equations/gravity.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flotsam
+{
+
+namespace
+{
+
+/// A corner of a facet by the shape functions of its element.
+template<int D>
+struct Corner { double n[D + 1]; };
+
+/// From the facet's symmetric points of quadrature (CutFacet), each weighed `own` at a corner of its own.
+template<int D>
+std::array<Corner<D>, D> cornersOf(const CutFacet& facet)
+{
+    const double own = D == 2 ? 0.5*(1 + 1/std::sqrt(3.0)) : 2.0/3, other = (1 - own)/(D - 1);
+    std::array<Corner<D>, D> corners;
+    for (int a = 0; a <= D; ++a)
+    {
+        double sum = 0;
+        for (int q = 0; q < D; ++q) sum += facet.shape[q][a];
+        for (int q = 0; q < D; ++q) corners[q].n[a] = (facet.shape[q][a] - other*sum)/(own - other);
+    }
+    return corners;
+}
+
+template<int D>
+double valueAt(const Corner<D>& corner, const double* nodal)
+{
+    double value = 0;
+    for (int a = 0; a <= D; ++a) value += corner.n[a]*nodal[a];
+    return value;
+}
+
+template<int D>
+Corner<D> zeroBetween(const Corner<D>& p, const Corner<D>& q, double atP, double atQ)
+{
+    Corner<D> result;
+    for (int a = 0; a <= D; ++a) result.n[a] = (atP*q.n[a] - atQ*p.n[a])/(atP - atQ);
+    return result;
+}
+
+/// Adds `factor` int N_a v over a piece of a facet, v linear (nodal). Exact.
+template<int D>
+void integrate(const std::array<Corner<D>, D>& corners, double area, const double* v, double factor, double* first)
+{
+    double sum = 0, at[D];
+    for (int i = 0; i < D; ++i) sum += at[i] = valueAt<D>(corners[i], v);
+    const double w = factor*area/(D*(D + 1));
+    for (int i = 0; i < D; ++i)
+        for (int a = 0; a <= D; ++a) first[a] += w*corners[i].n[a]*(sum + at[i]);
+}
+
+/// integrate() over the part where `level`, linear, is positive.
+template<int D>
+void integrateWet(std::array<Corner<D>, D> corners, double area, const double* level, const double* v, double factor, double* first)
+{
+    const auto isWet = [&](const Corner<D>& c) { return valueAt<D>(c, level) > 0; };
+    const int nWet = int(std::partition(corners.begin(), corners.end(), isWet) - corners.begin());
+    if (nWet == D) return integrate<D>(corners, area, v, factor, first);
+    if (nWet == 0) return;
+    if (nWet > 1)   // a triangle but for its dry corner
+    {
+        integrate<D>(corners, area, v, factor, first);
+        std::reverse(corners.begin(), corners.end());
+        factor = -factor;
+    }
+    const double alone = valueAt<D>(corners[0], level);
+    for (int i = 1; i < D; ++i)
+    {
+        const double there = valueAt<D>(corners[i], level);
+        corners[i] = zeroBetween<D>(corners[0], corners[i], alone, there);
+        area *= alone/(alone - there);
+    }
+    integrate<D>(corners, area, v, factor, first);
+}
+
+/// Nodal values of an element with a profile.
+template<int D>
+struct ProfileElement
+{
+    double potential[D + 1], pressure[D + 1], level[D + 1]; // g.(x_k - x_G), rho_k times that, of the surface
+    bool isAny;
+
+    ProfileElement(const SimplexMesh& mesh, const FluidProperties& fluid, const InterfacePlanes& planes, const std::vector<double>& ofSurface,
+        const std::vector<double>& levels, int e)
+    {
+        double g[D];
+        for (int d = 0; d < D; ++d) g[d] = fluid.gravity[mesh.axes[d]];
+        isAny = balancedPotentials<D>(mesh, g, planes, ofSurface, e, potential);
+        for (int a = 0; isAny && a <= D; ++a)
+        {
+            const int i = mesh.elements[std::size_t(e)*(D + 1) + a];
+            pressure[a] = ofSurface[i]*potential[a];
+            level[a] = levels[i];
+            // a level that the surface does not account for (spray, sheets) has no sharp surface
+            if ((level[a] > 0) != (ofSurface[i] > 0.5*(fluid.rhoLiquid + fluid.rhoGas)) && std::abs(level[a]) > 0.25*mesh.h[e]) isAny = false;
+        }
+    }
+};
+
+template<int D>
+std::vector<FacetPressure> surfacePressureT(const SimplexMesh& mesh, const FluidProperties& fluid, const InterfacePlanes& planes,
+    const std::vector<double>& ofSurface, const std::vector<double>& levels, const Cover& cover)
+{
+    std::vector<FacetPressure> result;
+    for (const CutElement& cut : cover.cuts)
+    {
+        if (cut.facetStart == cut.facetEnd) continue;
+        const ProfileElement<D> profile(mesh, fluid, planes, ofSurface, levels, cut.element);
+        for (int f = cut.facetStart; profile.isAny && f < cut.facetEnd; ++f)
+        {
+            const CutFacet& facet = cover.facets[f];
+            FacetPressure p{cut.element, facet.solid, {}, {}};
+            std::copy_n(facet.normal, D, p.normal);
+            const std::array<Corner<D>, D> corners = cornersOf<D>(facet);
+            integrate<D>(corners, facet.area, profile.pressure, -1, p.first);
+            integrate<D>(corners, facet.area, profile.potential, fluid.rhoGas, p.first);
+            integrateWet<D>(corners, facet.area, profile.level, profile.potential, fluid.rhoLiquid - fluid.rhoGas, p.first);
+            result.push_back(p);
+        }
+    }
+    return result;
+}
+
+} // namespace
+
+std::vector<FacetPressure> surfacePressure(const SimplexMesh& mesh, const FluidProperties& fluid, const InterfacePlanes& planes,
+    const std::vector<double>& ofSurface, const std::vector<double>& level, const Cover& cover)
+{
+    return mesh.dim == 2 ? surfacePressureT<2>(mesh, fluid, planes, ofSurface, level, cover)
+                         : surfacePressureT<3>(mesh, fluid, planes, ofSurface, level, cover);
+}
+
+} // namespace flotsam
