@@ -276,6 +276,14 @@ std::shared_ptr<const SampledShape> sampleShape(std::shared_ptr<const Shape> sha
     return std::make_shared<SampledShape>(std::move(shape), std::max(0.25*thinnest, std::sqrt(area/largestNumber)));
 }
 
+/// The disc that a cylinder across a 2D mesh is, as the one sphere that rolls as it does; null: it is none.
+std::unique_ptr<SurfaceSphere> discSphere(const BodyDefinition& body)
+{
+    const auto* cylinder = dynamic_cast<const CylinderShape*>(body.shape.get());
+    if (!cylinder || !body.isPlanar || std::abs((body.pose.orientation*cylinder->axis())[body.planeAxis]) < 1 - 1e-9) return nullptr;
+    return std::make_unique<SurfaceSphere>(SurfaceSphere{cylinder->centre(), cylinder->radius()});
+}
+
 void makeSpheres(std::vector<BodyGroup>& groups)
 {
     double smallest = 1e300;
@@ -283,7 +291,8 @@ void makeSpheres(std::vector<BodyGroup>& groups)
     for (BodyGroup& g : groups)
     {
         const double spacing = g.sphereSpacing > 0 ? g.sphereSpacing : closedSpacing(g.sphereRadius, smallest);
-        g.prototype.spheres = surfaceSpheres(*g.prototype.shape, g.sphereRadius, spacing);
+        if (const auto disc = discSphere(g.prototype)) g.prototype.spheres = {*disc};
+        else g.prototype.spheres = surfaceSpheres(*g.prototype.shape, g.sphereRadius, spacing);
     }
 }
 

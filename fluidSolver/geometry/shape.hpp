@@ -71,7 +71,8 @@ struct SurfaceSphere { Vec3 centre; double radius; };
 
 /// Spheres of radius `radius` whose surfaces touch the shape's surface from inside, neighbouring centres at most
 /// `spacing` apart, on the surface only (paper: "placed on the body's surface only"). The radius is reduced where
-/// the shape is thinner than 2*radius. A Sphere shape gives one sphere of its own radius.
+/// the shape is thinner than 2*radius. What is round has spheres of its own radius: a sphere one, capsules and cylinders that are longer than thick a row on
+/// the axis, cylinders besides it those at their ends.
 std::vector<SurfaceSphere> surfaceSpheres(const Shape& shape, double radius, double spacing);
 
 std::shared_ptr<const Shape> makeBox(const Vec3& centre, const Vec3& size);

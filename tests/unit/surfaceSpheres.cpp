@@ -110,8 +110,8 @@ TEST_CASE("thick spheres keep a cylinder round: no plane touches it later than b
                 for (const SurfaceSphere& s : spheres) reach = std::max(reach, direction.dot(s.centre) + s.radius);
                 least = std::min(least, reach);
             }
-            CHECK(least > 0.97 * R);
-            CHECK(spheres.size() < 120);
+            CHECK(least > (length > R ? 1 - 1e-9 : 0.97) * R);    // with a row on the axis it is round
+            CHECK(spheres.size() < 60);
         }
 }
 
