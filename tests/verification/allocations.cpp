@@ -167,6 +167,6 @@ TEST_CASE("a step takes next to nothing from the heap")
 
 TEST_CASE("with bodies it takes some for each")
 {
-    CHECK(withBodies(1) < 250);
-    CHECK(withBodies(3) < 550);
+    CHECK(withBodies(1) < 150);
+    CHECK(withBodies(3) < 210);
 }
