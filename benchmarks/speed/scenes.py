@@ -69,7 +69,7 @@ def slitDam(root, runs, resolution="quick", bars="yes", suffix=""):
     setEntry(parameters, "bars", bars)
     refine = [("topoSet",), ("refineMesh", "-overwrite")] if resolution == "standard" else []
     for tool in (("blockMesh",), *refine, ("setExprFields",), ("setExprBoundaryFields",)):
-        steps.do(folder, tool)
+        steps.do(folder, *tool)
     return Scene(f"slitDam {resolution}" + ("" if bars == "yes" else " without bars"), folder, 0.005 if resolution == "quick" else 0.002, 5, 25)
 
 

@@ -32,8 +32,14 @@ MotionCheck::MotionCheck(const std::vector<BodyDefinition>& bodies, const std::v
     for (const BodyDefinition& body : bodies)
     {
         double radius = 0;
-        for (const SurfaceSphere& s : body.spheres) radius = std::max(radius, s.radius);
+        Vec3 halves = Vec3::Zero();
+        for (const SurfaceSphere& s : body.spheres)
+        {
+            radius = std::max(radius, s.radius);
+            halves = halves.cwiseMax(s.centre.cwiseAbs() + Vec3::Constant(s.radius));
+        }
         extents_.push_back(outerRadius(body));
+        halves_.push_back(halves);
         largestRadius_.push_back(radius);
     }
     for (const WallDefinition& wall : walls)
@@ -47,12 +53,16 @@ MotionCheck::MotionCheck(const std::vector<BodyDefinition>& bodies, const std::v
 std::string MotionCheck::strayBody(const std::vector<BodyState>& predicted, const std::vector<BodyState>& found, double distance) const
 {
     for (std::size_t b = 0; b < bodies_.size(); ++b)
-    {
-        const Pose &is = found[b].pose, &was = predicted[b].pose;
-        const double turn = std::min(2.0, is.orientation.angularDistance(was.orientation));
-        if (!((is.position - was.position).norm() + turn*extents_[b] <= distance)) return bodies_[b].name;
-    }
+        if (!(largestWay(b, predicted[b].pose, found[b].pose) <= distance)) return bodies_[b].name;
     return "";
+}
+
+/// Along its own axes: a bar that rolls about its length takes its ends nowhere.
+double MotionCheck::largestWay(std::size_t body, const Pose& from, const Pose& to) const
+{
+    const double turn = std::min(2.0, to.orientation.angularDistance(from.orientation));
+    const Eigen::Matrix3d turned = to.orientation.toRotationMatrix() - from.orientation.toRotationMatrix();
+    return (to.position - from.position).norm() + std::min(turn*extents_[body], turned.colwise().norm().dot(halves_[body].transpose()));
 }
 
 double MotionCheck::surfaceSpeed(std::size_t body, const BodyState& state) const

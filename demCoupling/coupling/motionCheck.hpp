@@ -27,6 +27,8 @@ public:
         const std::vector<char>& isAway) const;
 
 private:
+    /// Bound of the way of any point of the body's surface [m].
+    double largestWay(std::size_t body, const Pose& from, const Pose& to) const;
     double surfaceSpeed(std::size_t body, const BodyState& state) const;
     struct Box { Vec3 lower, upper; };
     struct Path { std::vector<Vec3> before, after; Box box; }; // of the spheres' centres
@@ -38,6 +40,7 @@ private:
     std::vector<BodyDefinition> bodies_;
     std::vector<WallDefinition> walls_;
     std::vector<double> extents_, largestRadius_; ///< of the bodies about their centres, of their spheres [m]
+    std::vector<Vec3> halves_;  ///< of the bodies along their own axes, from their centres [m]
     std::vector<Box> wallBoxes_;
 };
 

@@ -35,6 +35,13 @@ struct SolidCoupling
     bool isFree = false;
     std::vector<double> inertia; ///< nDof*nDof mass matrix / dt (free solids; same on every rank)
     std::vector<double> rhs;     ///< nDof: history, weight, contact (free solids; same on every rank)
+
+    /// Of the nodes, which keep their memory.
+    void clear()
+    {
+        node.clear();
+        for (std::vector<double>* v : {&column, &row, &block, &inertia, &rhs}) v->clear();
+    }
 };
 
 /// Directions in which the velocity of a node is prescribed.

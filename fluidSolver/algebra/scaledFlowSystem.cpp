@@ -81,7 +81,10 @@ void ScaledFlowSystem::renewHierarchies()
 template<int D>
 void ScaledFlowSystem::setDiagonals()
 {
-    std::vector<double> ghost(std::size_t(mesh_.nNodes), 0.0), ghostPressure(std::size_t(mesh_.nNodes), 0.0);
+    // work vectors of the solve, void before it
+    std::vector<double> &ghost = local_, &ghostPressure = pressureLocal_;
+    ghost.assign(ghost.size(), 0.0);
+    ghostPressure.assign(ghostPressure.size(), 0.0);
     for (const GhostTerm& g : system_->ghosts)
         for (int j = 0; j < D + 2; ++j)
         {

@@ -20,11 +20,11 @@ void SolidUnknowns::set(const FlowSystem& system)
         const SolidCoupling& solid = system.solids[s];
         if (!solid.isFree) continue;
         free_.push_back(int(s));
-        std::vector<double> block(solid.block);
-        block.resize(std::size_t(n)*n);
-        halo_.sum(block.data(), n*n);
+        double block[6*6] = {};
+        std::copy(solid.block.begin(), solid.block.end(), block);
+        halo_.sum(block, n*n);
         for (int k = 0; k < n*n; ++k) block[k] += solid.inertia[k];
-        const Eigen::MatrixXd m = Eigen::Map<Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>(block.data(), n, n);
+        const Block m = Eigen::Map<Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>(block, n, n);
         inverse_.push_back(m.inverse());
         for (int k = 0; k < n; ++k) scale_.push_back(1/std::sqrt(std::abs(m(k, k))));
     }

@@ -41,7 +41,8 @@ private:
     const FlowSystem* system_ = nullptr;
     int nDof_ = 0;
     std::vector<int> free_;
-    std::vector<Eigen::MatrixXd> inverse_;
+    using Block = Eigen::Matrix<double, -1, -1, Eigen::ColMajor, 6, 6>;  // nDof*nDof, 6 at most: without memory from the heap
+    std::vector<Block> inverse_;
     std::vector<double> scale_; // free*nDof
     std::vector<double> values_; // work: free*nDof
 };

@@ -82,12 +82,12 @@ void VelocityBlock::addHeldValues(double factor, double* z)
 
 void VelocityBlock::findLightNodes(const FlowSystem& system)
 {
-    std::vector<char> isHeld(nOwned_, 0);
-    for (const NodeConstraint& c : system.constraints) isHeld[c.node] = 1;
-    for (int i : held_.nodes()) isHeld[i] = 1;
+    isHeld_.assign(nOwned_, 0);
+    for (const NodeConstraint& c : system.constraints) isHeld_[c.node] = 1;
+    for (int i : held_.nodes()) isHeld_[i] = 1;
     lightNodes_.clear();
     for (int i = 0; i < nOwned_; ++i)
-        if (system.isActive[i] && system.isLight[i] && !isHeld[i]) lightNodes_.push_back(i);
+        if (system.isActive[i] && system.isLight[i] && !isHeld_[i]) lightNodes_.push_back(i);
 }
 
 template<int D>

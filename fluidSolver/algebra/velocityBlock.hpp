@@ -42,6 +42,7 @@ private:
     std::vector<float> inverse_;    // nOwned*dim*dim; 0 at the nodes of held_
     GhostHeldNodes held_;           // without prescribed directions
     std::vector<int> lightNodes_;   // ascending: FlowSystem::isLight, but for nodes with prescribed directions and those of held_
+    std::vector<char> isHeld_;      // owned nodes, work of findLightNodes()
 };
 
 } // namespace flotsam

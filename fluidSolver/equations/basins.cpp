@@ -74,15 +74,12 @@ void Basins::find(const Cover* cover, const std::vector<int>* isLeftOut)
     number();
 }
 
-std::vector<char> Basins::haveAny(const std::vector<char>& isNode) const
+void Basins::haveAny(const std::vector<char>& isNode, std::vector<char>& any) const
 {
-    std::vector<double> sum(count_, 0.0);
+    any.assign(count_, 0);
     for (int i = 0; i < mesh_.nOwned; ++i)
-        if (basin_[i] >= 0 && isNode[i]) sum[basin_[i]] = 1;
-    halo_.sum(sum.data(), count_);
-    std::vector<char> any(count_);
-    std::transform(sum.begin(), sum.end(), any.begin(), [](double s) { return s > 0; });
-    return any;
+        if (basin_[i] >= 0 && isNode[i]) any[basin_[i]] = 1;
+    MPI_Allreduce(MPI_IN_PLACE, any.data(), count_, MPI_SIGNED_CHAR, MPI_MAX, halo_.comm());
 }
 
 } // namespace flotsam

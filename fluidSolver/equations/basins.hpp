@@ -20,8 +20,8 @@ public:
     int count() const { return count_; }            ///< of all ranks
     int of(int i) const { return basin_[i]; }       ///< node i: 0..count()-1, the same on every rank; -1: no fluid there
 
-    /// Per basin: whether isNode (nNodes) holds for any of its nodes. Collective.
-    std::vector<char> haveAny(const std::vector<char>& isNode) const;
+    /// any: per basin, whether isNode (nNodes) holds for any of its nodes. Collective.
+    void haveAny(const std::vector<char>& isNode, std::vector<char>& any) const;
 
 private:
     int root(int i);

@@ -159,7 +159,7 @@ private:
     std::vector<int> sorted_;               // while those are sorted
     std::vector<double> liquid_, volume_;   // per owned node: what its cell holds at this moment [m^dim]
     std::vector<double> upwind_;            // per node: their ratio
-    std::vector<std::vector<int>> meeting_; // per level: nodes of it in elements of higher levels
+    std::vector<std::vector<int>> meeting_; // per level (and higher ones that were): nodes of it in elements of higher levels
     std::vector<char> isMeeting_;
     std::vector<double> firstLiquid_, firstVolume_; // of those: what their own level has exchanged for the whole of its time step
 

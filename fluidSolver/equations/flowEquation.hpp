@@ -43,7 +43,7 @@ public:
     void setFreeBodies(const std::vector<FreeBody>& bodies, double dt);
 
     /// Basins without a prescribed pressure: shifts those of x to the level of FluidProperties::pRefValue. Collective.
-    void setPressureLevel(std::vector<double>& x) const;
+    void setPressureLevel(std::vector<double>& x);
 
     /// Writes prescribed velocities and pressures into x (nNodes*(dim+1)).
     void applyConstraints(const std::vector<PatchValues>& values, std::vector<double>& x) const;
@@ -124,7 +124,7 @@ private:
     void holdPockets();
     void applyPockets(std::vector<double>& x) const;
     void findPressureLevels();
-    std::vector<double> levelVolumes(const std::vector<int>& level) const;
+    void findLevelVolumes(const std::vector<int>& level, std::vector<double>& volume) const;
     void joinByBodies(const std::vector<char>& hasGas, std::vector<int>& level) const;
     double gasShare(int i) const { return fluid_.isTwoPhase ? 1 - std::clamp(step_.state->alpha[i], 0.0, 1.0) : 0; }
     void applyGasEdge(std::vector<double>& x) const;
@@ -170,6 +170,12 @@ private:
     std::vector<char> isPatchPressureFixed_;    // nNodes: by a patch
     std::vector<char> isPressureWeak_;          // nNodes: of these, where liquid enters: see findWeakPressures()
     std::vector<double> entering_;              // nNodes, work of findWeakPressures(): volume flux into the mesh [m^dim/s]
+    struct LevelWork        // of findPressureLevels(): nNodes; the others per basin or level
+    {
+        std::vector<char> isGiven, hasPressure, hasGas;
+        std::vector<int> level, kept;
+        std::vector<double> volume, sum;
+    } levels_;
     double gasLevel_ = 0;                       // of the gas at rest's pressure [Pa]
     std::vector<char> isSlipEdge_;              // nNodes: on a re-entrant edge of walls, see SlipNormals
     std::vector<char> isSlipBend_;              // nNodes: where faces of one wall differ in direction

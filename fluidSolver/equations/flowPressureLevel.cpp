@@ -17,17 +17,16 @@ constexpr double leastGas = 1e-3;   // of a basin's volume: with less its level 
 constexpr int byBoundary = -1;      // no level to keep
 
 /// Level of every basin: first their own numbers, byBoundary where a pressure is prescribed.
-std::vector<int> ownLevels(const std::vector<char>& hasPressure)
+void setOwnLevels(const std::vector<char>& hasPressure, std::vector<int>& level)
 {
-    std::vector<int> level(hasPressure.size());
+    level.resize(hasPressure.size());
     for (std::size_t b = 0; b < level.size(); ++b) level[b] = hasPressure[b] ? byBoundary : int(b);
-    return level;
 }
 
-/// 0, 1, ... for the levels that are left; returns how many.
-int renumber(std::vector<int>& level)
+/// 0, 1, ... for the levels that are left; returns how many. kept: work.
+int renumber(std::vector<int>& level, std::vector<int>& kept)
 {
-    std::vector<int> kept(level);
+    kept = level;
     std::sort(kept.begin(), kept.end());
     kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
     kept.erase(kept.begin(), std::upper_bound(kept.begin(), kept.end(), byBoundary));
@@ -39,9 +38,9 @@ int renumber(std::vector<int>& level)
 } // namespace
 
 /// Volume of every basin that has a level to keep, then of its gas (2*count). Collective.
-std::vector<double> FlowEquation::levelVolumes(const std::vector<int>& level) const
+void FlowEquation::findLevelVolumes(const std::vector<int>& level, std::vector<double>& volume) const
 {
-    std::vector<double> volume(2*level.size(), 0.0);
+    volume.assign(2*level.size(), 0.0);
     for (int i = 0; i < mesh_.nOwned; ++i)
     {
         const int b = step_.basins->of(i);
@@ -50,7 +49,6 @@ std::vector<double> FlowEquation::levelVolumes(const std::vector<int>& level) co
         volume[2*b + 1] += system_.dualVolume[i]*gasShare(i);
     }
     halo_.sum(volume.data(), int(volume.size()));
-    return volume;
 }
 
 /// Liquid without gas that a free body divides from other fluid presses on the body: its level is no matter of choice, but what the body's motion, which must
@@ -60,8 +58,9 @@ void FlowEquation::joinByBodies(const std::vector<char>& hasGas, std::vector<int
     const auto isTied = [&](int b) { return b >= 0 && level[b] != byBoundary && !hasGas[b]; };
     bool hasTied = false;
     for (std::size_t b = 0; b < level.size(); ++b) hasTied = hasTied || isTied(int(b));
+    if (!hasTied) return;
     std::vector<int> least(system_.solids.size());
-    for (bool isMoving = hasTied; isMoving; )
+    for (bool isMoving = true; isMoving; )
     {
         for (std::size_t s = 0; s < system_.solids.size(); ++s)
         {
@@ -92,16 +91,18 @@ void FlowEquation::findPressureLevels()
     system_.nLevels = 0;
     system_.level.clear();
     system_.levelWeight.clear();
-    std::vector<char> isGiven(system_.isPressureFixed);
+    auto& [isGiven, hasPressure, hasGas, level, kept, volume, sum] = levels_;
+    isGiven = system_.isPressureFixed;
     for (int i = 0; i < mesh_.nNodes; ++i) isGiven[i] |= isPressureWeak_[i];
-    std::vector<int> level = ownLevels(step_.basins->haveAny(isGiven));
+    step_.basins->haveAny(isGiven, hasPressure);
+    setOwnLevels(hasPressure, level);
     if (std::count(level.begin(), level.end(), byBoundary) == long(level.size())) return;
-    const std::vector<double> volume = levelVolumes(level);
-    std::vector<char> hasGas(level.size());
+    findLevelVolumes(level, volume);
+    hasGas.resize(level.size());
     for (std::size_t b = 0; b < level.size(); ++b) hasGas[b] = volume[2*b + 1] > leastGas*volume[2*b];
     joinByBodies(hasGas, level);
-    system_.nLevels = renumber(level);
-    std::vector<double> sum(system_.nLevels, 0.0); // of what the mean is over
+    system_.nLevels = renumber(level, kept);
+    sum.assign(system_.nLevels, 0.0); // of what the mean is over
     for (std::size_t b = 0; b < level.size(); ++b)
         if (level[b] != byBoundary) sum[level[b]] += volume[2*b + hasGas[b]];
     system_.level.assign(mesh_.nNodes, byBoundary);
@@ -115,11 +116,12 @@ void FlowEquation::findPressureLevels()
     }
 }
 
-void FlowEquation::setPressureLevel(std::vector<double>& x) const
+void FlowEquation::setPressureLevel(std::vector<double>& x)
 {
     if (system_.nLevels == 0) return;
     const int dim = mesh_.dim, B = dim + 1;
-    std::vector<double> mean(system_.nLevels, 0.0);
+    std::vector<double>& mean = levels_.sum;
+    mean.assign(system_.nLevels, 0.0);
     for (int i = 0; i < mesh_.nOwned; ++i)
         if (system_.level[i] >= 0) mean[system_.level[i]] += system_.levelWeight[i]*x[std::size_t(i)*B + dim];
     halo_.sum(mean.data(), system_.nLevels);

@@ -123,10 +123,10 @@ template<int D>
 void FlowEquation::assembleWalls()
 {
     constexpr int nDof = RigidArm<D>::nDof;
-    system_.solids.clear();
-    if (!step_.cover || !step_.solids) return;
+    if (!step_.cover || !step_.solids) return system_.solids.clear();
     const std::vector<Solid>& solids = *step_.solids;
     system_.solids.resize(solids.size());
+    for (SolidCoupling& coupling : system_.solids) coupling.clear();
     const std::vector<FacetGroup<D>> groups = groupFacets<D>(*step_.cover, mesh_.nInnerElements, mesh_.isOwnedElement);
     placeInSolid_.resize(mesh_.nNodes, -1);
     sweptOfCut_.assign(step_.cover->cuts.size()*(D + 1), 0.0);

@@ -15,7 +15,7 @@ Fluid::Fluid(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& f
     const std::vector<BoundaryPatch>& patches)
 :   mesh_(mesh), halo_(halo), graph_(mesh), fluid_(fluid), controls_(controls), patches_(patches), values_(patches.size()),
     equation_(mesh, graph_, halo, fluid_, controls_, patches_), solver_(mesh, graph_, halo, controls_),
-    transport_(mesh, graph_, halo, controls_), massFluxes_(mesh, fluid_, controls_), basins_(mesh, halo), pockets_(mesh, graph_, halo)
+    transport_(mesh, graph_, halo, controls_), massFluxes_(mesh, fluid_, controls_), surfaceLevel_(mesh, halo), basins_(mesh, halo), pockets_(mesh, graph_, halo)
 {
     if (controls_.gasDepth > 0 && fluid_.isTwoPhase) gas_ = std::make_unique<GasRegion>(mesh, halo, controls_.gasDepth);
     if (!controls_.dualCellTransport) supg_ = std::make_unique<PhaseFieldSupg>(mesh, graph_, halo, controls_);
@@ -123,7 +123,9 @@ void Fluid::setPocketPressures()
     if (!pockets_.areAny()) return;
     std::array<double, 3> gravity{};
     for (int d = 0; d < mesh_.dim; ++d) gravity[d] = fluid_.gravity[mesh_.axes[d]];
-    pockets_.setPressures(state_.p, nodalDensity(), gravity);
+    findDensity(x_);
+    pockets_.setPressures(state_.p, x_, gravity);
+    x_.clear();
 }
 
 void Fluid::assemble()

@@ -18,6 +18,7 @@
 #include "equations/massFluxes.hpp"
 #include "equations/phaseFieldSupg.hpp"
 #include "equations/shutPockets.hpp"
+#include "equations/surfaceLevel.hpp"
 
 #include <memory>
 #include <string>
@@ -100,7 +101,7 @@ private:
     void moveInactiveNodes();
     void extendPhase();
     void findSurface(const Cover* cover);
-    std::vector<double> nodalDensity() const;
+    void findDensity(std::vector<double>& rho) const;
     void setGravity(const Cover* cover);
     void findBasins(const Cover* cover);
     void setPocketPressures();
@@ -130,6 +131,7 @@ private:
     MassFluxes massFluxes_;         // of the last step; surfaceTimeOrder 2
     std::unique_ptr<PhaseFieldSupg> supg_;  // the paper's form, when selected
     InterfacePlanes planes_;
+    SurfaceLevel surfaceLevel_;
     std::vector<double> level_;             // of the last search
     bool isLevelKnown_ = false;             // the search was on the present phase field
     const Cover* cover_ = nullptr;
@@ -141,9 +143,10 @@ private:
     ShutPockets pockets_;
     const std::vector<Solid>* solids_ = nullptr;
     TimeScheme time_;
+    std::vector<double> surfaceDensity_; // nNodes, work of setGravity()
     std::vector<FacetPressure> surfacePressure_;
     std::vector<double> force_;         // nElements*dim; empty between advancePhase() and setGravity()
-    std::vector<double> x_, q_;         // solution: nNodes*(dim+1), nDof per solid; x_ is empty between advancePhase() and solve()
+    std::vector<double> x_, q_;         // solution: nNodes*(dim+1), nDof per solid; x_ is void between endStep() and setFirstGuess(), and lends its memory
     std::vector<PairFlux> ghostFlux_;   // of the last accepted solve
     double liquidBefore_ = 0;
 };

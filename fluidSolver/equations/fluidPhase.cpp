@@ -5,7 +5,6 @@
 #include "equations/gravity.hpp"
 #include "equations/materials.hpp"
 #include "equations/solidExtension.hpp"
-#include "equations/surfaceLevel.hpp"
 #include "geometry/meanCover.hpp"
 
 #include <algorithm>
@@ -78,10 +77,11 @@ double Fluid::profileRate() const
     return controls_.balancedGravity && !supg_ ? controls_.profileKeeping*std::sqrt(std::hypot(g[0], g[1], g[2])) : 0;
 }
 
-/// Planes of the free surface. The level is found once a step.
+/// Planes of the free surface. The level is found once a step. The last solution is void and lends its memory.
 void Fluid::findSurface(const Cover* cover)
 {
-    if (!isLevelKnown_) level_ = surfaceLevel(mesh_, halo_, state_.alpha, transport_.width(), profileCells(), cover, levelTolerance());
+    if (!isLevelKnown_) surfaceLevel_.find(state_.alpha, transport_.width(), profileCells(), cover, levelTolerance(), x_, level_);
+    x_.clear();
     isLevelKnown_ = true;
     planes_.propagate(mesh_, graph_, halo_, level_, planesExtent(controls_, transport_.width()), cover, true);
 }
@@ -111,26 +111,27 @@ void Fluid::extendPhase()
     halo_.update(level_, 1);
 }
 
-std::vector<double> Fluid::nodalDensity() const
+void Fluid::findDensity(std::vector<double>& rho) const
 {
-    std::vector<double> rho(mesh_.nNodes);
+    rho.resize(mesh_.nNodes);
     for (int i = 0; i < mesh_.nNodes; ++i) rho[i] = density(fluid_, controls_, fluid_.isTwoPhase ? state_.alpha[i] : 1);
-    return rho;
 }
 
-/// Gravity per element, into force_, and what it leaves out of the load on solids, into surfacePressure_; cover: of what is computed.
+/// Gravity per element, into force_, and what it leaves out of the load on solids, into surfacePressure_; cover: of what is computed. The last solution is void and lends
+/// its memory.
 void Fluid::setGravity(const Cover* cover)
 {
-    const std::vector<double> rho = nodalDensity();
-    std::vector<double> ofSurface;
     const bool isBalanced = fluid_.isTwoPhase && controls_.balancedGravity;
     if (isBalanced)
     {
         findSurface(cover_);
-        surfaceDensity(mesh_, fluid_, controls_, planes_, transport_.width(), state_.alpha, ofSurface);
+        surfaceDensity(mesh_, fluid_, controls_, planes_, transport_.width(), state_.alpha, surfaceDensity_);
     }
-    gravityForce(mesh_, fluid_.gravity, rho, isBalanced ? &planes_ : nullptr, ofSurface, cover, force_);
-    surfacePressure_ = isBalanced && cover ? surfacePressure(mesh_, fluid_, planes_, ofSurface, level_, *cover) : std::vector<FacetPressure>{};
+    findDensity(x_);
+    gravityForce(mesh_, fluid_.gravity, x_, isBalanced ? &planes_ : nullptr, surfaceDensity_, cover, force_);
+    x_.clear();
+    surfacePressure_.clear();
+    if (isBalanced && cover) addSurfacePressure(mesh_, fluid_, planes_, surfaceDensity_, level_, *cover, surfacePressure_);
 }
 
 } // namespace flotsam

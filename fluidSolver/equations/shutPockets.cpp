@@ -72,7 +72,8 @@ void ShutPockets::find(const Cover& cover, const std::vector<char>& isPressureFi
 {
     const std::vector<int> isLeftOut = findLeftOut(cover);
     fluids_.find(&cover, &isLeftOut);
-    const std::vector<char> isOutside = fluids_.haveAny(findOpen(cover, isPressureFixed));
+    std::vector<char> isOutside;
+    fluids_.haveAny(findOpen(cover, isPressureFixed), isOutside);
     isIn_.assign(mesh_.nNodes, 0);
     isOutside_.assign(mesh_.nNodes, 0);
     bool areAny = false;

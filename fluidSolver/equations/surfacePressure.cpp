@@ -4,6 +4,7 @@
 #include "equations/gravity.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace flotsam
@@ -107,10 +108,9 @@ struct ProfileElement
 };
 
 template<int D>
-std::vector<FacetPressure> surfacePressureT(const SimplexMesh& mesh, const FluidProperties& fluid, const InterfacePlanes& planes,
-    const std::vector<double>& ofSurface, const std::vector<double>& levels, const Cover& cover)
+void addSurfacePressureT(const SimplexMesh& mesh, const FluidProperties& fluid, const InterfacePlanes& planes, const std::vector<double>& ofSurface,
+    const std::vector<double>& levels, const Cover& cover, std::vector<FacetPressure>& result)
 {
-    std::vector<FacetPressure> result;
     for (const CutElement& cut : cover.cuts)
     {
         if (cut.facetStart == cut.facetEnd) continue;
@@ -127,16 +127,15 @@ std::vector<FacetPressure> surfacePressureT(const SimplexMesh& mesh, const Fluid
             result.push_back(p);
         }
     }
-    return result;
 }
 
 } // namespace
 
-std::vector<FacetPressure> surfacePressure(const SimplexMesh& mesh, const FluidProperties& fluid, const InterfacePlanes& planes,
-    const std::vector<double>& ofSurface, const std::vector<double>& level, const Cover& cover)
+void addSurfacePressure(const SimplexMesh& mesh, const FluidProperties& fluid, const InterfacePlanes& planes, const std::vector<double>& ofSurface,
+    const std::vector<double>& level, const Cover& cover, std::vector<FacetPressure>& result)
 {
-    return mesh.dim == 2 ? surfacePressureT<2>(mesh, fluid, planes, ofSurface, level, cover)
-                         : surfacePressureT<3>(mesh, fluid, planes, ofSurface, level, cover);
+    if (mesh.dim == 2) addSurfacePressureT<2>(mesh, fluid, planes, ofSurface, level, cover, result);
+    else addSurfacePressureT<3>(mesh, fluid, planes, ofSurface, level, cover, result);
 }
 
 } // namespace flotsam

@@ -20,8 +20,8 @@ struct FacetPressure
     double first[4];    ///< int N_a over the facet of the difference [N, in 2D N/m]
 };
 
-/// level: nNodes, surfaceLevel(); ofSurface: nNodes, surfaceDensity(). Of facets where there is a difference.
-std::vector<FacetPressure> surfacePressure(const SimplexMesh& mesh, const FluidProperties& fluid, const InterfacePlanes& planes,
-    const std::vector<double>& ofSurface, const std::vector<double>& level, const Cover& cover);
+/// Adds those of facets where there is a difference. level: nNodes, SurfaceLevel; ofSurface: nNodes, surfaceDensity().
+void addSurfacePressure(const SimplexMesh& mesh, const FluidProperties& fluid, const InterfacePlanes& planes, const std::vector<double>& ofSurface,
+    const std::vector<double>& level, const Cover& cover, std::vector<FacetPressure>& result);
 
 } // namespace flotsam

@@ -182,39 +182,37 @@ void DualCellTransport::storeSteppedBulk(const Arguments& in)
 /// Positions of the stored elements by level.
 void DualCellTransport::sortElements()
 {
-    std::vector<int> level(stored_.size(), 0);
+    const auto levelOf = [this](std::size_t k) { return largestLevel_ > 0 ? elementLevel(stored_[k]) : 0; };
     levelStart_.assign(largestLevel_ + 2, 0);
     for (std::size_t k = 0; k < stored_.size(); ++k)
     {
-        if (largestLevel_ > 0)
-        {
-            level[k] = elementLevel(stored_[k]);
-        }
-        ++levelStart_[level[k] + 1];
+        ++levelStart_[levelOf(k) + 1];
     }
     for (int l = 0; l <= largestLevel_; ++l)
     {
         levelStart_[l + 1] += levelStart_[l];
     }
     byLevel_.resize(stored_.size());
-    std::vector<std::size_t> next(levelStart_.begin(), levelStart_.end() - 1);
+    std::array<std::size_t, maxLevel + 1> next{};
+    std::copy(levelStart_.begin(), levelStart_.end() - 1, next.begin());
     for (std::size_t k = 0; k < stored_.size(); ++k)
     {
-        byLevel_[next[level[k]]++] = static_cast<int>(k);
+        byLevel_[next[levelOf(k)]++] = static_cast<int>(k);
     }
 }
 
 void DualCellTransport::findMeetingNodes()
 {
     const int n = mesh_.dim + 1;
-    for (const std::vector<int>& nodes : meeting_)
+    for (std::vector<int>& nodes : meeting_)
     {
         for (int i : nodes)
         {
             isMeeting_[i] = 0;
         }
+        nodes.clear();
     }
-    meeting_.assign(largestLevel_ + 1, {});
+    meeting_.resize(std::max(meeting_.size(), std::size_t(largestLevel_) + 1));
     for (int l = 1; l <= largestLevel_; ++l)
     {
         for (std::size_t k = levelStart_[l]; k < levelStart_[l + 1]; ++k)

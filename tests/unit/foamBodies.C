@@ -60,8 +60,9 @@ TEST_CASE("spheres of a union are as fine as its thinnest part demands")
     BodiesScene s;
     const auto finest = [&](const std::string& shape)
     {
+        const BodiesInput input = s.read(bodies("shape { " + shape + " } density 600; position (1 0.5 0.2);"));
         double radius = 1e300;
-        for (const SurfaceSphere& sphere : s.read(bodies("shape { " + shape + " } density 600; position (1 0.5 0.2);")).bodies[0].spheres) radius = std::min(radius, sphere.radius);
+        for (const SurfaceSphere& sphere : input.bodies[0].spheres) radius = std::min(radius, sphere.radius);
         return radius;
     };
     const std::string trunk = "type cylinder; end1 (0 0 0); end2 (0.3 0 0); radius 0.02;", wad = "type cylinder; end1 (-0.1 0 0); end2 (0.1 0 0); radius 0.1;";

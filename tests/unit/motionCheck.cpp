@@ -22,6 +22,14 @@ BodyDefinition makeCube(const std::string& name)
     return cube;
 }
 
+BodyDefinition makeBar(const std::string& name)
+{
+    BodyDefinition bar;
+    bar.name = name;
+    for (const double x : {-0.49, 0.0, 0.49}) bar.spheres.push_back({Vec3(x, 0, 0), 0.01});
+    return bar;
+}
+
 BodyState at(double x, double y, double z)
 {
     BodyState state;
@@ -118,4 +126,16 @@ TEST_CASE("a body far from its prediction")
     CHECK(check.strayBody({at(0, 0, 0)}, {at(0.1, 0, 0)}, 0.09) == "first");
     CHECK(check.strayBody({at(0, 0, 0)}, {turned}, 0.02) == "");
     CHECK(check.strayBody({at(0, 0, 0)}, {turned}, 0.01) == "first");
+}
+
+TEST_CASE("a bar that rolls about its length goes less far than one that turns across it")
+{
+    const MotionCheck check({makeBar("bar")}, {}); // half a metre long to each side, 0.02 m thick
+    BodyState rolled = at(0, 0, 0), turned = at(0, 0, 0);
+    rolled.pose.orientation = Eigen::AngleAxisd(0.2, Vec3::UnitX());
+    turned.pose.orientation = Eigen::AngleAxisd(0.2, Vec3::UnitY());
+    CHECK(check.strayBody({at(0, 0, 0)}, {rolled}, 0.0042) == "");
+    CHECK(check.strayBody({at(0, 0, 0)}, {rolled}, 0.0028) == "bar"); // its edges
+    CHECK(check.strayBody({at(0, 0, 0)}, {turned}, 0.099) == "bar");
+    CHECK(check.strayBody({at(0, 0, 0)}, {turned}, 0.102) == "");
 }

@@ -216,7 +216,8 @@ TEST_CASE("surface level: the distance from a plane whose profile the dual cells
                 alpha[i] = profileSlab(&cells, i, n, exact[i], scene.width[i]).mean();
             }
             scene.halo.update(alpha, 1);    // cells of second-ring copies are not whole
-            const std::vector<double> found = surfaceLevel(scene.mesh, scene.halo, alpha, scene.width, &cells, nullptr, 1e-10);
+            std::vector<double> work, found;
+            SurfaceLevel(scene.mesh, scene.halo).find(alpha, scene.width, &cells, nullptr, 1e-10, work, found);
             double worst = 0;
             for (int i = 0; i < scene.mesh.nNodes; ++i)
                 if (std::abs(exact[i]) < 0.15) worst = std::max(worst, std::abs(found[i] - exact[i]));

@@ -60,8 +60,10 @@ void balancedForce(const SimplexMesh& mesh, const Level& level, std::vector<doub
         alpha[i] = profileSlab(&cells, i, normalOf(dim, level, &mesh.x[std::size_t(i)*dim]).data(), level(&mesh.x[std::size_t(i)*dim]), width[i]).mean();
         rho[i] = density(FluidProperties{}, controls, alpha[i]);
     }
+    std::vector<double> work, found;
+    SurfaceLevel(mesh, halo).find(alpha, width, &cells, nullptr, 1e-10, work, found);
     InterfacePlanes planes;
-    planes.propagate(mesh, graph, halo, surfaceLevel(mesh, halo, alpha, width, &cells, nullptr, 1e-10), {controls.gravityLayers}, nullptr, true);
+    planes.propagate(mesh, graph, halo, found, {controls.gravityLayers}, nullptr, true);
     std::vector<double> ofSurface;
     surfaceDensity(mesh, FluidProperties{}, controls, planes, width, alpha, ofSurface);
     std::array<double, 3> g{};
