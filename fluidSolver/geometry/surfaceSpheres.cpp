@@ -61,24 +61,34 @@ void addRow(Spheres& spheres, const Vec3& centre, const Vec3& axis, double halfL
     for (int i = 0; i <= n; ++i) spheres.push_back({centre + (n > 0 ? halfLength * (2.0 * i / n - 1) : 0) * axis, radius});
 }
 
-/// Centres on the cylinder that lies `radius` inside: rings, on the ends' faces as well. Where a row has room it stands for the rings but for those beyond its ends.
+/// Rings whose centres lie on the cylinder `radius` inside, and on the ends' faces. Where a row has room it stands for the rings but for those beyond its ends. There the last
+/// ones, which make the rims, stay off the ground that the row rolls on.
 Spheres cylinderSpheres(const CylinderShape& c, double radius, double spacing)
 {
+    constexpr double rimDepth = 0.01;   // inside the cylinder, over its radius
     const double r = std::min({radius, c.radius(), c.halfLength()});
     const double length = c.halfLength() - r, turn = c.radius() - r, row = c.halfLength() - c.radius();
     Spheres spheres;
-    const auto addRings = [&](double from, double to, int first)
+    const auto addRings = [&](double along, double ring) { addRing(spheres, c.centre(), c.axis(), {along, ring}, r, spacing); };
+    const auto addFace = [&](double along, double rim)
     {
-        const int n = parts(std::abs(to - from), spacing);
-        for (int i = first; i <= n; ++i) addRing(spheres, c.centre(), c.axis(), {n > 0 ? from + (to - from) * i / n : from, turn}, r, spacing);
+        const int m = std::max(1, parts(rim, spacing));
+        for (int k = rim > 0 ? 0 : 1; k <= m; ++k) addRings(along, rim * k / m);
     };
-    if (row < 0) addRings(-length, length, 0);
-    else addRow(spheres, c.centre(), c.axis(), row, c.radius(), spacing);
+    if (row < 0)
+    {
+        const int n = parts(2 * length, spacing);
+        for (int i = 1; i < n; ++i) addRings(length * (2.0 * i / n - 1), turn);
+        addFace(length, turn);
+        if (n > 0) addFace(-length, turn);
+        return spheres;
+    }
+    addRow(spheres, c.centre(), c.axis(), row, c.radius(), spacing);
+    const int n = parts(length - row, spacing);
     for (const int side : {-1, 1})
     {
-        if (row >= 0 && turn > 0) addRings(side * row, side * length, 1);
-        const int m = length > 0 || side > 0 ? parts(turn, spacing) : 0;   // a disc may be one layer
-        for (int k = 0; k < m; ++k) addRing(spheres, c.centre(), c.axis(), {side * length, turn * k / m}, r, spacing);
+        for (int i = 1; i < n; ++i) addRings(side * (row + (length - row) * i / n), turn);
+        if (n > 0) addFace(side * length, std::max(0.0, turn - rimDepth * c.radius()));
     }
     return spheres;
 }
