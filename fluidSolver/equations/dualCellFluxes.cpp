@@ -112,6 +112,21 @@ public:
         addFace(face);
     }
 
+    /// The mean over the whole face between two nodes, half way between them, instead of one element's piece of it; toNeighbour: from the upwind node; thickness: of the upwind
+    /// cell along its front's normal.
+    template<int dim>
+    void addWholeFront(const Face& face, const NodeProfile& front, const double* toNeighbour, const double* velocity, double dt, double thickness)
+    {
+        double half[dim], direction[dim];
+        for (int d = 0; d < dim; ++d) half[d] = 0.5*toNeighbour[d];
+        const double along = dot<dim>(half, front.normal), sine = std::sqrt(std::max(0., 1 - along*along/dot<dim>(half, half)));
+        const double psi = front.value + front.steepness*bentDistance<dim>(front, half, direction);
+        const double swept = front.steepness*dt*dot<dim>(direction, velocity), across = front.steepness*thickness*sine;
+        if (across > std::abs(swept)) addMean(psi + 0.5*across, across);
+        else addMean(psi, swept);
+        addFace(face);
+    }
+
     /// gradient: of the level in the element.
     template<int dim>
     void addRoof(const Face& face, const NodeProfile& roof, const double* gradient, const double* offset, const double* velocity, double dt)
@@ -211,6 +226,7 @@ void DualCellTransport::addFaceValues(const Arguments& in)
         double gradient[dim];
         reconstruction_.levelGradient<dim>(e, gradient);
         const FaceGeometry<dim> geometry(mesh_, in.u, nodes);
+        const bool isCut = in.cover && in.cover->state[e] == ElementState::Cut;
         for (int p = 0; p < Pairs::count; ++p)
         {
             const int a = Pairs::first[p], b = Pairs::second[p], upwind = flux[p] > 0 ? a : b;
@@ -231,6 +247,13 @@ void DualCellTransport::addFaceValues(const Arguments& in)
             if (kind == ProfileKind::Film)
             {
                 faces.addFilm<dim>(face, offset, velocity, dt);
+            }
+            else if (kind == ProfileKind::Front && isCut)
+            {
+                // what a solid leaves of the pieces above and below a node differs, and as it moves along the surface one would gain on the other
+                double toNeighbour[dim];
+                for (int d = 0; d < dim; ++d) toNeighbour[d] = geometry.corner[a + b - upwind][d] - geometry.corner[upwind][d];
+                faces.addWholeFront<dim>(face, profile, toNeighbour, velocity, dt, 2*cells_.halfWidth(nodes[upwind], profile.normal));
             }
             else if (kind == ProfileKind::Front)
             {
