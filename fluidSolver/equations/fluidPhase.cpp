@@ -91,7 +91,7 @@ void Fluid::findSurface(const Cover* cover)
 /// away than the fluid on this side does: planes are handed on through solids, and what lies dry behind one would turn wet as it moves on.
 void Fluid::extendPhase()
 {
-    constexpr double unlike = 0.1;  // difference of alpha
+    constexpr double unlike = 0.01;  // difference of alpha
     constexpr double beside = 10;   // from the surface, in widths: there the profile ends
     extendIntoSolids(mesh_, graph_, halo_, *cover_, state_.alpha);
     isLevelKnown_ = false;
