@@ -187,14 +187,16 @@ void CoverBuilder::sample(const Solid& solid, std::vector<Sample>& samples) cons
         const double* nearest = std::max_element(faces, faces + nFaces);
         const double d = nFaces > 0 ? *nearest : linearDistance(y);
         if (d > limit) return;
-        double film = noFilm;
-        if (nFaces == 0) film = film_.thickness(node, solid);
-        else if (film_.lift(node, solid, nFaces, faces))
+        const int face = static_cast<int>(nearest - faces);
+        Sample sample{node, face, face, d, noFilm};
+        if (nFaces == 0) sample.film = film_.thickness(node, solid);
+        else
         {
-            nearest = std::max_element(faces, faces + nFaces);
-            if (*nearest > d) film = *nearest;
+            // offsets, still to come, may bring faces nearer to the wall: cutDistance() takes what is larger
+            sample.film = film_.lift(node, solid, nFaces, faces, 2 * largestOffset);
+            sample.filmFace = static_cast<int>(std::max_element(faces, faces + nFaces) - faces);
         }
-        samples.push_back({node, static_cast<int>(nearest - faces), d, film});
+        samples.push_back(sample);
     });
 }
 
@@ -222,7 +224,7 @@ void CoverBuilder::applySamples(Cover& cover, const std::vector<Solid>& solids, 
         {
             cover.distance[s.node] = d;
             cover.nearestSolid[s.node] = solid;
-            face_[s.node] = s.face;
+            face_[s.node] = cutFace(s, d);
         }
     }
 }

@@ -42,8 +42,8 @@ public:
 
 private:
     /// Distance of one solid at a node near it, without the solid's offsets, and the position of the nearest of the shape's faces. film: how far the
-    /// solid is kept off a wall there at least.
-    struct Sample { int node, face; double distance, film; };
+    /// solid is kept off a wall there at least, filmFace: the nearest face then.
+    struct Sample { int node, face, filmFace; double distance, film; };
 
     /// Distances of a solid's faces at the nodes of one element, without those that have the whole element inside. isApart: one has it outside, and the solid no part in it.
     template <int dim>
@@ -110,6 +110,7 @@ private:
 
     void applySamples(Cover& cover, const std::vector<Solid>& solids, int solid, const std::vector<Sample>& samples);
     double cutDistance(const Solid& solid, const Sample& sample) const;
+    int cutFace(const Sample& sample, double cutDistance) const { return cutDistance > sample.film ? sample.face : sample.filmFace; }
     template <class Visit> void forEachElementOf(const Sample& sample, double distance, const std::vector<int>& face, Visit visit) const;
     bool isNear(const std::vector<double>& distance, int element) const;
     bool isAtEdge(const std::vector<int>& face, int element) const;
@@ -195,7 +196,7 @@ void CoverBuilder::forEachElementAlone(const Solid& solid, const std::vector<Sam
     for (const Sample& s : samples)
     {
         aloneDistance_[s.node] = cutDistance(solid, s);
-        aloneFace_[s.node] = s.face;
+        aloneFace_[s.node] = cutFace(s, aloneDistance_[s.node]);
     }
     ++mark_;
     for (const Sample& s : samples)

@@ -112,15 +112,16 @@ double WallFilm::share(int i, const Solid& solid, double distance) const
     return wall ? std::clamp(1 - distance/wall->height, 0.0, 1.0) : 0;
 }
 
-bool WallFilm::lift(int i, const Solid& solid, int nFaces, double* distances) const
+double WallFilm::lift(int i, const Solid& solid, int nFaces, double* distances, double nearer) const
 {
     const WallNode* wall = wallNode(i, solid);
-    if (!wall) return false;
+    if (!wall) return noFilm;
     const std::array<double, 3> x = mesh_.spacePoint(i);
     double here[maxFaces], over[maxFaces];
     solid.faceDistances(Vec3(x[0], x[1], x[2]), here);
     solid.faceDistances(pointOver(i, *wall, reachOfFilm), over);
     const double film = filmThickness*wall->height;
+    for (int k = 0; k < nFaces; ++k) distances[k] -= nearer*wall->height;
     const bool isBeside = *std::max_element(distances, distances + nFaces) >= film;
     bool isLifted = false;
     for (int k = 0; k < nFaces; ++k)
@@ -130,7 +131,7 @@ bool WallFilm::lift(int i, const Solid& solid, int nFaces, double* distances) co
         distances[k] = film;
         isLifted = true;
     }
-    return isLifted;
+    return isLifted ? film : noFilm;
 }
 
 } // namespace flotsam

@@ -26,8 +26,9 @@ public:
     /// Distance that a solid less than half an element over a wall keeps from its node at least [m]; noFilm: no such node, no such solid.
     double thickness(int node, const Solid& solid) const;
 
-    /// Of a solid that is cut by its faces: signed distances of the faces at the node. Those that look at the wall are kept off it; whether there are any.
-    bool lift(int node, const Solid& solid, int nFaces, double* distances) const;
+    /// Of a solid that is cut by its faces: signed distances of the faces at the node. Those that look at the wall are kept off it. Thickness as above; noFilm: there are none.
+    /// nearer: as if all faces were nearer by this, over the height of the elements on the wall.
+    double lift(int node, const Solid& solid, int nFaces, double* distances, double nearer = 0) const;
 
     /// FilmNode::share of a solid `distance` away from the node [m].
     double share(int node, const Solid& solid, double distance) const;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 using namespace flotsam;
 
@@ -124,4 +125,47 @@ TEST_CASE("with what others cover of it every body's surface is closed")
                 for (int k = 0; k <= dim; ++k) CHECK(moments(k, d) == within(k == d + 1 ? -volume : 0, 1e-15));
         }
     }
+}
+
+namespace
+{
+
+/// Largest sum of a body's surface and what others cover of it, over h^(dim-1), for logs with exact volumes on the bed and in the corner of bed and wall.
+double largestHoleOfLogs(int dim, double radius, bool isInCorner)
+{
+    constexpr int n = 10, nPlaces = 40;
+    CoverScene scene(dim, std::array{2 * n, n, n});
+    for (MeshPatch& patch : scene.mesh.patches) patch.type = "wall";
+    const double h = 2.0 / n;
+    CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+    double largest = 0;
+    for (int k = 0; k < (isInCorner ? 1 : nPlaces); ++k)
+    {
+        Solid log = makeSolid(makeCylinder({0, 0, -0.6}, {0, 0, 0.6}, radius * h), Vec3::Zero(), Solid::Kind::Free);
+        log.isLoose = true;
+        log.pose.position = Vec3(isInCorner ? -1 + radius * h : -0.3 + h * (k + 0.5) / nPlaces, -1 + radius * h - 1e-6, 0.01);
+        log.pose.orientation = Eigen::Quaterniond::Identity();
+        std::vector<Solid> solids = {log};
+        for (int pass = 0; pass < 6; ++pass) builder.buildExactVolume(solids);
+        const Cover& cover = builder.cover();
+        Vec3 sum = Vec3::Zero();
+        for (const CutFacet& f : cover.facets)
+            for (int d = 0; d < dim && scene.mesh.isOwnedElement[f.element]; ++d) sum[d] += f.area * f.normal[d];
+        for (const CoveredFacet& f : cover.coveredFacets)
+            for (int q = 0; q < f.nPoints && scene.mesh.isOwnedElement[f.element]; ++q)
+                for (int d = 0; d < dim; ++d) sum[d] += f.area[d];
+        scene.halo.sum(sum.data(), 3);
+        largest = std::max(largest, sum.norm() / std::pow(h, dim - 1));
+    }
+    std::printf("%dD, %.2f elements a diameter%s: hole of %.1e\n", dim, 2 * radius, isInCorner ? ", in a corner" : "", largest);
+    return largest;
+}
+
+} // namespace
+
+TEST_CASE("a film of fluid goes on all around a log that lies on a wall, whatever its surface is moved by for its volume")
+{
+    for (const int dim : {2, 3})
+        for (const double radius : {1.0, 1.25, 1.375, 1.5, 1.75, 2.0, 2.5})
+            for (const bool isInCorner : {false, true}) CHECK(largestHoleOfLogs(dim, radius, isInCorner) < 1e-9);
 }

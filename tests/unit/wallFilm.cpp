@@ -107,7 +107,7 @@ TEST_CASE("round bodies keep their volume, structures and bodies away from walls
     solids[0].isLoose = true;
     solids[0].shape = makeCylinder(Vec3(0, 0, -1), Vec3(0, 0, 1), 0.2);
     solids[0].pose.position = Vec3(0.47, 0.199, 0);
-    for (int k = 0; k < 4; ++k) builder.buildExactVolume(solids);
+    for (int k = 0; k < 7; ++k) builder.buildExactVolume(solids);    // over the film the surface does not move: each leaves 0.44 of what is missing
     CHECK(builder.cover().solidVolume[0] == near(M_PI*0.04, 2e-5));
     CHECK(closure(room, builder.cover()).norm() < 1e-7);
 
