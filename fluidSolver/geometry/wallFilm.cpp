@@ -122,7 +122,9 @@ double WallFilm::lift(int i, const Solid& solid, int nFaces, double* distances, 
     solid.faceDistances(pointOver(i, *wall, reachOfFilm), over);
     const double film = filmThickness*wall->height;
     for (int k = 0; k < nFaces; ++k) distances[k] -= nearer*wall->height;
-    const bool isBeside = *std::max_element(distances, distances + nFaces) >= film;
+    // a round side lies on the wall at its line alone, but with all of it: what is lifted under it goes on beside its ends
+    const bool isFlat = solid.shape->symmetry().kind == Symmetry::Kind::None;
+    const bool isBeside = isFlat && *std::max_element(distances, distances + nFaces) >= film;
     bool isLifted = false;
     for (int k = 0; k < nFaces; ++k)
     {

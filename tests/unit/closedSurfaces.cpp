@@ -133,17 +133,18 @@ namespace
 /// Largest sum of a body's surface and what others cover of it, over h^(dim-1), for logs with exact volumes on the bed and in the corner of bed and wall.
 double largestHoleOfLogs(int dim, double radius, bool isInCorner)
 {
+    constexpr double along[] = {0.01, 0.03, 0.07, 0.11};    // place along its axis: of its ends between the nodes
     constexpr int n = 10, nPlaces = 40;
     CoverScene scene(dim, std::array{2 * n, n, n});
     for (MeshPatch& patch : scene.mesh.patches) patch.type = "wall";
     const double h = 2.0 / n;
     CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
     double largest = 0;
-    for (int k = 0; k < (isInCorner ? 1 : nPlaces); ++k)
+    for (int k = 0; k < (isInCorner ? 4 : nPlaces); ++k)
     {
         Solid log = makeSolid(makeCylinder({0, 0, -0.6}, {0, 0, 0.6}, radius * h), Vec3::Zero(), Solid::Kind::Free);
         log.isLoose = true;
-        log.pose.position = Vec3(isInCorner ? -1 + radius * h : -0.3 + h * (k + 0.5) / nPlaces, -1 + radius * h - 1e-6, 0.01);
+        log.pose.position = Vec3(isInCorner ? -1 + radius * h : -0.3 + h * (k + 0.5) / nPlaces, -1 + radius * h - 1e-6, along[k % 4]);
         log.pose.orientation = Eigen::Quaterniond::Identity();
         std::vector<Solid> solids = {log};
         for (int pass = 0; pass < 6; ++pass) builder.buildExactVolume(solids);
