@@ -291,8 +291,9 @@ void makeSpheres(std::vector<BodyGroup>& groups)
     for (BodyGroup& g : groups)
     {
         const double spacing = g.sphereSpacing > 0 ? g.sphereSpacing : closedSpacing(g.sphereRadius, smallest);
+        const double ofRows = g.sphereSpacing > 0 ? g.sphereSpacing : 0.5*g.sphereRadius;
         if (const auto disc = discSphere(g.prototype)) g.prototype.spheres = {*disc};
-        else g.prototype.spheres = surfaceSpheres(*g.prototype.shape, g.sphereRadius, spacing);
+        else g.prototype.spheres = surfaceSpheres(*g.prototype.shape, g.sphereRadius, spacing, ofRows);
     }
 }
 

@@ -72,8 +72,9 @@ struct SurfaceSphere { Vec3 centre; double radius; };
 /// Spheres of radius `radius` whose surfaces touch the shape's surface from inside, neighbouring centres at most
 /// `spacing` apart, on the surface only (paper: "placed on the body's surface only"). The radius is reduced where
 /// the shape is thinner than 2*radius. What is round has spheres of its own radius: a sphere one, capsules and cylinders that are longer than thick a row on
-/// the axis, cylinders besides it those at their ends.
-std::vector<SurfaceSphere> surfaceSpheres(const Shape& shape, double radius, double spacing);
+/// the axis, centres at most `rowSpacing` and half of its radius apart, cylinders besides it those at their ends.
+std::vector<SurfaceSphere> surfaceSpheres(const Shape& shape, double radius, double spacing, double rowSpacing);
+inline std::vector<SurfaceSphere> surfaceSpheres(const Shape& shape, double radius, double spacing) { return surfaceSpheres(shape, radius, spacing, spacing); }
 
 std::shared_ptr<const Shape> makeBox(const Vec3& centre, const Vec3& size);
 std::shared_ptr<const Shape> makeSphere(const Vec3& centre, double radius);
