@@ -158,11 +158,12 @@ void FlowEquation::addSurfacePressure()
         const FacetPressure& facet = (*step_.surfacePressure)[k];
         if (!mesh_.isOwnedElement[facet.element]) continue;
         const Solid& solid = solids[facet.solid];
+        const Turning<D> turning(mesh_, solid);
         double* load = &loads[std::size_t(facet.solid)*nDof];
         for (int a = 0; a < N; ++a)
         {
             RigidArm<D> arm(mesh_, solid, mesh_.elements[std::size_t(facet.element)*N + a]);
-            arm.onSurface(Turning<D>(mesh_, solid), facet.normal);
+            arm.onSurface(turning, facet.normal);
             double force[D];
             for (int d = 0; d < D; ++d) force[d] = facet.first[a]*facet.normal[d];
             arm.template addLoads<1>(force, load);

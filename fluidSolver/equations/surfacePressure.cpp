@@ -2,6 +2,7 @@
 #include "equations/surfacePressure.hpp"
 
 #include "equations/gravity.hpp"
+#include "geometry/cutSimplex.hpp"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +22,7 @@ struct Corner { double n[D + 1]; };
 template<int D>
 std::array<Corner<D>, D> cornersOf(const CutFacet& facet)
 {
-    const double own = D == 2 ? 0.5*(1 + 1/std::sqrt(3.0)) : 2.0/3, other = (1 - own)/(D - 1);
+    constexpr double own = ownCornerWeight<D>, other = (1 - own)/(D - 1);
     std::array<Corner<D>, D> corners;
     for (int a = 0; a <= D; ++a)
     {

@@ -11,6 +11,10 @@ namespace flotsam
 /// Parts of an element smaller than this, relative to the element, do not exist.
 constexpr double negligiblePart = 1e-14;
 
+/// Weight of a facet's corner at the point of quadrature beside it; the other corners share the rest. Two Gauss points (edge), three inside (triangle), degree 2.
+template <int dim>
+constexpr double ownCornerWeight = dim == 2 ? 0.5 * (1 + 0.57735026918962576451) : 2.0 / 3;
+
 template <int dim>
 struct SimplexFacet
 {

@@ -162,8 +162,7 @@ bool setFacet(SimplexFacet<dim>& facet, const SimplexPoint<dim>* corners, double
     const double a = facet.area / negligiblePart; // against the volume to the power (dim-1)/dim, without a root
     if (dim == 3 ? a * a * a < elementVolume * elementVolume : a * a < elementVolume) return false;
 
-    const double own = dim == 2 ? 0.5 * (1 + 1 / std::sqrt(3.0)) : 2.0 / 3;
-    const double other = (1 - own) / (dim - 1);
+    constexpr double own = ownCornerWeight<dim>, other = (1 - own) / (dim - 1);
     for (int q = 0; q < dim; ++q)
     {
         facet.weight[q] = facet.area / dim;
