@@ -42,10 +42,16 @@ def _between(case, time, reach):
     return mass.sum(), mass @ f["U"][chosen, 0]
 
 
-def wallForce(h):
-    """Force of bed and sides on the bodies along the channel over time [N]: what the structures do not hold of them."""
-    names = ["bodies/" + n for n in h.bodies] + ["structures/" + n for n in h.structures]
-    return flotsam.sumForce(h, names, "contactForce")[:, 0]
+def wallForce(h, reach):
+    """Force of bed and sides between the sections on the bodies there, along the channel over time [N]: what the structures do not hold of them.
+    Bodies beyond the sections are left out: what they touch there holds nothing of this reach."""
+    force = flotsam.sumForce(h, ["structures/" + n for n in h.structures], "contactForce")[:, 0]
+    for name in h.bodies:
+        body = h["bodies/" + name]
+        x = body.position[:, 0]
+        inside = h.isThere("bodies/" + name) & (x > reach.begin) & (x < reach.end)
+        force = force + np.where(inside, body.contactForce[:, 0], 0.0)
+    return force
 
 
 def gainOfBodies(h, reach, start, end):
@@ -69,7 +75,7 @@ def forceOnStructures(case, h, reach, times):
     downSlope = GRAVITY * np.sin(np.arctan(reach.slope))
     bodies = sum(h["bodies/" + n].mass for n in h.bodies if h.isThere("bodies/" + n)[-1] and reach.begin < h["bodies/" + n].position[-1, 0] < reach.end)
     chosen = (h.time > times[0]) & (h.time <= times[-1] + 1e-9)
-    held = wallForce(h)[chosen].mean() if h.bodies else 0.0
+    held = wallForce(h, reach)[chosen].mean() if h.bodies else 0.0
     change = (momentum[-1] - momentum[0]) / (times[-1] - times[0])
     trapezoids = np.convolve(np.diff(times), [0.5, 0.5]) / (times[-1] - times[0])
     return (np.subtract(up, down) + mass * downSlope) @ trapezoids + bodies * downSlope + held - change, trapezoids @ up
