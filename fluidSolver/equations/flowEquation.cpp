@@ -96,6 +96,7 @@ void FlowEquation::assemble(const FlowStepData& step)
         assembleFilms<2>();
         assembleWalls<2>();
         assembleLayers<2>();
+        sumOwnLoads();
         keepSweptMass<2>();
         removeMassDefect<2>();
         assembleGhosts<2>();
@@ -110,6 +111,7 @@ void FlowEquation::assemble(const FlowStepData& step)
         assembleFilms<3>();
         assembleWalls<3>();
         assembleLayers<3>();
+        sumOwnLoads();
         keepSweptMass<3>();
         removeMassDefect<3>();
         assembleGhosts<3>();

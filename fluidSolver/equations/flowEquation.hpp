@@ -84,7 +84,8 @@ private:
     template<int D> void addVelocity(int slot, double value);
     template<int D> void coupleToNeighbours(int i, double value);
     template<int D> void assembleWalls();
-    template<int D> void addSurfacePressure();
+    template<int D> void addSurfaceLoads();
+    void sumOwnLoads();
     template<int D> void addFacetGroup(const FacetGroup<D>& group, const Solid& solid, const Turning<D>& turning, const double* q, SolidCoupling& coupling);
     template<int D> void sumSwept();
     static constexpr double layerThickness = 0.25;  // of unresolved layers on walls and between solids, over the size of the elements there
@@ -101,6 +102,7 @@ private:
     template<int D> double layerShare(int s, int e, const double* shape) const;
     template<int D> void addCoveredFacet(int s, const Turning<D>& turning, const CoveredFacet& facet, SolidCoupling& coupling);
     template<int D> void addCoveredVolume(int s, const Turning<D>& turning, const CoveredVolume& volume, SolidCoupling& coupling);
+    template<int D> void addLayerWeight(int s, const Turning<D>& turning, const CoveredVolume& volume);
     template<int D> void addLayerLoad(int e, int a, const double* load, SolidCoupling& coupling);
     template<int D> void addConductance(int a, int b, double conductance, double hydrostatic);
     template<int D> void assembleGhosts();
@@ -164,6 +166,7 @@ private:
     std::vector<char> isLayerNode_;             // nNodes, empty: no layers on any rank; nodes of layers in solids and pockets
     std::vector<int> layerSolid_;               // nNodes: whose share of the layers' content is 1 there
     std::vector<int> placeInSolid_;             // nNodes: in the coupling being assembled, else -1
+    std::vector<double> ownLoads_;              // nDof of each solid: of the fluid besides the unknowns
     std::vector<double> mass_, swept_;          // owned nodes: inertia of the fluid there; what moving surfaces take from it, a half [kg/s]
     std::vector<double> sweptOfCut_;            // that half at the corners of every cut element, negative where fluid appears
     std::vector<char> carriesMass_, isOpen_;    // nodes of varying elements; nodes on open patches

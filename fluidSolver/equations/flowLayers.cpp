@@ -108,7 +108,7 @@ void FlowEquation::addLayerElement(int e, double share)
 {
     constexpr int N = D + 1;
     const int* nodes = &mesh_.elements[std::size_t(e)*N];
-    const double* grad = &mesh_.gradN[std::size_t(e)*N*D];
+    const double *grad = &mesh_.gradN[std::size_t(e)*N*D], *force = &(*step_.elementForce)[std::size_t(e)*D];
     double rho = 0;
     for (int a = 0; a < N; ++a) rho += nodal_.rho[nodes[a]]/N;
     const double conductance = share*layerThickness*mesh_.volume[e]*layerTime(mesh_.h[e])/rho;
@@ -121,7 +121,7 @@ void FlowEquation::addLayerElement(int e, double share)
             for (int d = 0; d < D; ++d)
             {
                 product += grad[a*D + d]*grad[b*D + d];
-                hydrostatic += rho*fluid_.gravity[mesh_.axes[d]]*(mesh_.x[std::size_t(nodes[a])*D + d] - mesh_.x[std::size_t(nodes[b])*D + d]);
+                hydrostatic += force[d]*(mesh_.x[std::size_t(nodes[a])*D + d] - mesh_.x[std::size_t(nodes[b])*D + d]);
             }
             if (product < 0) addConductance<D>(nodes[a], nodes[b], -conductance*product, hydrostatic); // obtuse angles let nothing through
         }
@@ -227,6 +227,28 @@ void FlowEquation::addCoveredVolume(int s, const Turning<D>& turning, const Cove
     }
 }
 
+/// The weight of a solid's share of what the layer holds, which is as little of the flow as the solid is: without it the share's buoyancy would lift the solid.
+template<int D>
+void FlowEquation::addLayerWeight(int s, const Turning<D>& turning, const CoveredVolume& volume)
+{
+    constexpr int N = D + 1, nDof = RigidArm<D>::nDof, nAxes = nDof - D;
+    if (!mesh_.isOwnedElement[volume.element]) return;
+    const int* nodes = &mesh_.elements[std::size_t(volume.element)*N];
+    double load[nDof] = {};
+    for (int b = 0; b < N; ++b)
+    {
+        double share = 0, force[D];
+        for (int a = 0; a < N; ++a)
+            if (layerSolid_[nodes[a]] == s) share += volume.second[a*N + b];
+        for (int d = 0; d < D; ++d) force[d] = -share*(*step_.elementForce)[std::size_t(volume.element)*D + d];
+        RigidArm<D>(mesh_, (*step_.solids)[s], nodes[b]).template addLoads<1>(force, load);
+    }
+    double* sum = &ownLoads_[std::size_t(s)*nDof];
+    for (int d = 0; d < nDof; ++d) sum[d] += load[d];
+    for (int k = 0; k < nAxes; ++k) // nor has the pressure any moment about these axes
+        for (int l = 0; l < nAxes; ++l) sum[D + k] -= turning.projection[k*nAxes + l]*load[D + l];
+}
+
 template<int D>
 void FlowEquation::assembleLayers()
 {
@@ -274,7 +296,11 @@ void FlowEquation::coupleLayers()
         for (std::size_t k = 0; k < coupling.node.size(); ++k) placeInSolid_[coupling.node[k]] = int(k);
         const Turning<D> turning(mesh_, (*step_.solids)[s]);
         for (int k : facetsOf_[s]) addCoveredFacet<D>(int(s), turning, step_.cover->coveredFacets[k], coupling);
-        for (int k : volumesOf_[s]) addCoveredVolume<D>(int(s), turning, step_.cover->coveredVolumes[k], coupling);
+        for (int k : volumesOf_[s])
+        {
+            addCoveredVolume<D>(int(s), turning, step_.cover->coveredVolumes[k], coupling);
+            addLayerWeight<D>(int(s), turning, step_.cover->coveredVolumes[k]);
+        }
         for (int i : coupling.node) placeInSolid_[i] = -1;
     }
 }

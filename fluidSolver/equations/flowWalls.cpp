@@ -143,23 +143,23 @@ void FlowEquation::assembleWalls()
         for (int i : coupling.node) placeInSolid_[i] = -1;
     }
     sumSwept<D>();
-    addSurfacePressure<D>();
+    ownLoads_.assign(solids.size()*nDof, 0.0);
+    addSurfaceLoads<D>();
 }
 
-/// The load of the surface's own pressure on the solids: no unknown is in it.
+/// The surface's own pressure on the solids: no unknown is in it.
 template<int D>
-void FlowEquation::addSurfacePressure()
+void FlowEquation::addSurfaceLoads()
 {
     constexpr int N = D + 1, nDof = RigidArm<D>::nDof;
     const std::vector<Solid>& solids = *step_.solids;
-    std::vector<double> loads(solids.size()*nDof);
     for (std::size_t k = 0; step_.surfacePressure && k < step_.surfacePressure->size(); ++k)
     {
         const FacetPressure& facet = (*step_.surfacePressure)[k];
         if (!mesh_.isOwnedElement[facet.element]) continue;
         const Solid& solid = solids[facet.solid];
         const Turning<D> turning(mesh_, solid);
-        double* load = &loads[std::size_t(facet.solid)*nDof];
+        double* load = &ownLoads_[std::size_t(facet.solid)*nDof];
         for (int a = 0; a < N; ++a)
         {
             RigidArm<D> arm(mesh_, solid, mesh_.elements[std::size_t(facet.element)*N + a]);
@@ -170,8 +170,14 @@ void FlowEquation::addSurfacePressure()
             arm.template removeTurning<1>(0, force, load);
         }
     }
-    if (step_.surfacePressure) halo_.sum(loads.data(), int(loads.size()));
-    for (std::size_t s = 0; s < solids.size(); ++s) system_.solids[s].load.assign(&loads[s*nDof], &loads[s*nDof] + nDof);
+}
+
+/// After everything that adds to them.
+void FlowEquation::sumOwnLoads()
+{
+    const int nDof = system_.nDof;
+    if (step_.surfacePressure || !isLayerNode_.empty()) halo_.sum(ownLoads_.data(), int(ownLoads_.size()));
+    for (std::size_t s = 0; s < system_.solids.size(); ++s) system_.solids[s].load.assign(&ownLoads_[s*nDof], &ownLoads_[s*nDof] + nDof);
 }
 
 /// What elements around a node give, where fluid appears, does not make up for what is swept out of others: bodies that rock on each other open and close a
