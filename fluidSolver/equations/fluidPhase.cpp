@@ -125,7 +125,7 @@ void Fluid::setGravity(const Cover* cover)
     if (isBalanced)
     {
         findSurface(cover_);
-        surfaceDensity(mesh_, fluid_, controls_, planes_, transport_.width(), state_.alpha, surfaceDensity_);
+        surfaceDensity(mesh_, fluid_, controls_, planes_, cover_, transport_.width(), state_.alpha, surfaceDensity_);
     }
     findDensity(x_);
     gravityForce(mesh_, fluid_.gravity, x_, isBalanced ? &planes_ : nullptr, surfaceDensity_, cover, force_);

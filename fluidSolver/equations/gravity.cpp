@@ -151,13 +151,13 @@ template bool balancedPotentials<2>(const SimplexMesh&, const double*, const Int
 template bool balancedPotentials<3>(const SimplexMesh&, const double*, const InterfacePlanes&, const std::vector<double>&, int, double*);
 
 void surfaceDensity(const SimplexMesh& mesh, const FluidProperties& fluid, const NumericsControls& controls, const InterfacePlanes& planes,
-    const std::vector<double>& width, const std::vector<double>& alpha, std::vector<double>& result)
+    const Cover* cover, const std::vector<double>& width, const std::vector<double>& alpha, std::vector<double>& result)
 {
     result.resize(mesh.nNodes);
     for (int i = 0; i < mesh.nNodes; ++i)
     {
         double most = 1;    // share of the other fluid
-        if (planes.has(i))
+        if (planes.has(i) && (!cover || cover->isActiveNode[i]))
         {
             const double h = width[i]/controls.interfaceWidth;
             most = 1/(1 + std::exp((planes.distanceFromSurface(mesh, i) - h)/width[i]));

@@ -16,9 +16,10 @@ namespace flotsam
 {
 
 /// Density of the nodes as far as their surface plane accounts for it: of the fluid of the other side a node has no more than the profile would give it
-/// if the plane were one element length nearer. nNodes; rho where a node has no plane. width: nNodes [m].
+/// if the plane were one element length nearer. nNodes; rho where a node has no plane, and inside solids of `cover` (null: none), where the surface goes on
+/// and nothing is adrift, however far its plane comes from. width: nNodes [m].
 void surfaceDensity(const SimplexMesh& mesh, const FluidProperties& fluid, const NumericsControls& controls, const InterfacePlanes& planes,
-    const std::vector<double>& width, const std::vector<double>& alpha, std::vector<double>& result);
+    const Cover* cover, const std::vector<double>& width, const std::vector<double>& alpha, std::vector<double>& result);
 
 /// Planes for every node where alpha may weigh: over gravityLayers rings at least, in thin elements (rings are closer than the profile is wide) over more.
 InterfacePlanes::Extent planesExtent(const NumericsControls& controls, const std::vector<double>& width);

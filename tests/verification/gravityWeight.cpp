@@ -65,7 +65,7 @@ void balancedForce(const SimplexMesh& mesh, const Level& level, std::vector<doub
     InterfacePlanes planes;
     planes.propagate(mesh, graph, halo, found, {controls.gravityLayers}, nullptr, true);
     std::vector<double> ofSurface;
-    surfaceDensity(mesh, FluidProperties{}, controls, planes, width, alpha, ofSurface);
+    surfaceDensity(mesh, FluidProperties{}, controls, planes, nullptr, width, alpha, ofSurface);
     std::array<double, 3> g{};
     g[mesh.axes[dim - 1]] = gravity;
     gravityForce(mesh, g, rho, &planes, ofSurface, nullptr, f);
