@@ -157,7 +157,7 @@ void surfaceDensity(const SimplexMesh& mesh, const FluidProperties& fluid, const
     for (int i = 0; i < mesh.nNodes; ++i)
     {
         double most = 1;    // share of the other fluid
-        if (planes.has(i) && (!cover || cover->isActiveNode[i]))
+        if (planes.has(i) && !(cover && cover->distance[i] < 0))
         {
             const double h = width[i]/controls.interfaceWidth;
             most = 1/(1 + std::exp((planes.distanceFromSurface(mesh, i) - h)/width[i]));
