@@ -83,7 +83,9 @@ void Fluid::findSurface(const Cover* cover)
     if (!isLevelKnown_) surfaceLevel_.find(state_.alpha, transport_.width(), profileCells(), cover, levelTolerance(), x_, level_);
     x_.clear();
     isLevelKnown_ = true;
-    planes_.propagate(mesh_, graph_, halo_, level_, planesExtent(controls_, transport_.width()), cover, true);
+    InterfacePlanes::Extent extent = planesExtent(controls_, transport_.width());
+    extent.throughSolids = cover && halo_.any(!cover->coveredFacets.empty());
+    planes_.propagate(mesh_, graph_, halo_, level_, extent, cover, true);
 }
 
 /// Inside solids the phase field continues the free surface outside: the nearest plane's profile, so that a plane

@@ -290,6 +290,20 @@ bool InterfacePlanes::keepNear(const SimplexMesh& mesh, const Halo& halo, const 
     return halo.any(!changed_.empty());
 }
 
+/// From nodes inside solids beside the plane, however far along it, to the nodes around them.
+void InterfacePlanes::handOnThroughSolids(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const Extent& extent, const Cover& cover)
+{
+    const auto isElsewhere = [&](int i) { return cover.distance[i] >= 0 || std::abs(alongNormal(mesh, i)) > extent.widths*(*extent.width)[i]; };
+    for (changed_ = nodes_;;)
+    {
+        changed_.erase(std::remove_if(changed_.begin(), changed_.end(), isElsewhere), changed_.end());
+        if (!halo.any(!changed_.empty()))
+            return;
+        dim_ == 2 ? sweep<2>(mesh, graph) : sweep<3>(mesh, graph);
+        exchange(mesh, halo);
+    }
+}
+
 void InterfacePlanes::propagate(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo,
     const std::vector<double>& level, const Extent& extent, const Cover* cover, bool hasMeanNormals)
 {
@@ -309,6 +323,8 @@ void InterfacePlanes::propagate(const SimplexMesh& mesh, const NodeGraph& graph,
     }
     if (extent.rings < 1)
         exchange(mesh, halo);
+    if (extent.throughSolids && extent.width && cover)
+        handOnThroughSolids(mesh, graph, halo, extent, *cover);
 
     for (int i : nodes_)
         distance_[i] = alongNormal(mesh, i);

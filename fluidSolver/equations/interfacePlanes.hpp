@@ -31,6 +31,7 @@ public:
         int rings;
         const std::vector<double>* width = nullptr; ///< null: over the rings alone
         double widths = 0;
+        bool throughSolids = false;                 ///< inside solids as far as these go beside the surface: between logs of a raft there is none of its own
     };
 
     /// Planes of the zero level of `level` (nNodes, halo up to date, positive in the liquid), handed on; a node takes the plane with the nearest point.
@@ -51,6 +52,7 @@ private:
     void commit();
     double alongNormal(const SimplexMesh& mesh, int node) const;
     bool keepNear(const SimplexMesh& mesh, const Halo& halo, const Extent& extent);
+    void handOnThroughSolids(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const Extent& extent, const Cover& cover);
     void exchange(const SimplexMesh& mesh, const Halo& halo);
 
     int dim_ = 0, width_ = 0;
