@@ -96,7 +96,7 @@ void FlowEquation::assemble(const FlowStepData& step)
         assembleFilms<2>();
         assembleWalls<2>();
         assembleLayers<2>();
-        sumOwnLoads();
+        assembleOwnLoads<2>();
         keepSweptMass<2>();
         removeMassDefect<2>();
         assembleGhosts<2>();
@@ -111,7 +111,7 @@ void FlowEquation::assemble(const FlowStepData& step)
         assembleFilms<3>();
         assembleWalls<3>();
         assembleLayers<3>();
-        sumOwnLoads();
+        assembleOwnLoads<3>();
         keepSweptMass<3>();
         removeMassDefect<3>();
         assembleGhosts<3>();

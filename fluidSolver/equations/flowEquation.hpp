@@ -84,8 +84,8 @@ private:
     template<int D> void addVelocity(int slot, double value);
     template<int D> void coupleToNeighbours(int i, double value);
     template<int D> void assembleWalls();
-    template<int D> void addSurfaceLoads();
-    void sumOwnLoads();
+    template<int D> void assembleOwnLoads();
+    template<int D> void addSurfaceLoad(const FacetPressure& facet);
     template<int D> void addFacetGroup(const FacetGroup<D>& group, const Solid& solid, const Turning<D>& turning, const double* q, SolidCoupling& coupling);
     template<int D> void sumSwept();
     static constexpr double layerThickness = 0.25;  // of unresolved layers on walls and between solids, over the size of the elements there

@@ -307,5 +307,7 @@ void FlowEquation::coupleLayers()
 
 template void FlowEquation::assembleLayers<2>();
 template void FlowEquation::assembleLayers<3>();
+template bool FlowEquation::isOfLayer<2>(int) const;
+template bool FlowEquation::isOfLayer<3>(int) const;
 
 } // namespace flotsam

@@ -144,40 +144,6 @@ void FlowEquation::assembleWalls()
     }
     sumSwept<D>();
     ownLoads_.assign(solids.size()*nDof, 0.0);
-    addSurfaceLoads<D>();
-}
-
-/// The surface's own pressure on the solids: no unknown is in it.
-template<int D>
-void FlowEquation::addSurfaceLoads()
-{
-    constexpr int N = D + 1, nDof = RigidArm<D>::nDof;
-    const std::vector<Solid>& solids = *step_.solids;
-    for (std::size_t k = 0; step_.surfacePressure && k < step_.surfacePressure->size(); ++k)
-    {
-        const FacetPressure& facet = (*step_.surfacePressure)[k];
-        if (!mesh_.isOwnedElement[facet.element]) continue;
-        const Solid& solid = solids[facet.solid];
-        const Turning<D> turning(mesh_, solid);
-        double* load = &ownLoads_[std::size_t(facet.solid)*nDof];
-        for (int a = 0; a < N; ++a)
-        {
-            RigidArm<D> arm(mesh_, solid, mesh_.elements[std::size_t(facet.element)*N + a]);
-            arm.onSurface(turning, facet.normal);
-            double force[D];
-            for (int d = 0; d < D; ++d) force[d] = facet.first[a]*facet.normal[d];
-            arm.template addLoads<1>(force, load);
-            arm.template removeTurning<1>(0, force, load);
-        }
-    }
-}
-
-/// After everything that adds to them.
-void FlowEquation::sumOwnLoads()
-{
-    const int nDof = system_.nDof;
-    if (step_.surfacePressure || !isLayerNode_.empty()) halo_.sum(ownLoads_.data(), int(ownLoads_.size()));
-    for (std::size_t s = 0; s < system_.solids.size(); ++s) system_.solids[s].load.assign(&ownLoads_[s*nDof], &ownLoads_[s*nDof] + nDof);
 }
 
 /// What elements around a node give, where fluid appears, does not make up for what is swept out of others: bodies that rock on each other open and close a

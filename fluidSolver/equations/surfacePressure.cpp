@@ -18,17 +18,17 @@ namespace
 template<int D>
 struct Corner { double n[D + 1]; };
 
-/// From the facet's symmetric points of quadrature (CutFacet), each weighed `own` at a corner of its own.
+/// From a facet's symmetric points of quadrature (CutFacet), each weighed `own` at a corner of its own.
 template<int D>
-std::array<Corner<D>, D> cornersOf(const CutFacet& facet)
+std::array<Corner<D>, D> cornersOf(const double (*shape)[4])
 {
     constexpr double own = ownCornerWeight<D>, other = (1 - own)/(D - 1);
     std::array<Corner<D>, D> corners;
     for (int a = 0; a <= D; ++a)
     {
         double sum = 0;
-        for (int q = 0; q < D; ++q) sum += facet.shape[q][a];
-        for (int q = 0; q < D; ++q) corners[q].n[a] = (facet.shape[q][a] - other*sum)/(own - other);
+        for (int q = 0; q < D; ++q) sum += shape[q][a];
+        for (int q = 0; q < D; ++q) corners[q].n[a] = (shape[q][a] - other*sum)/(own - other);
     }
     return corners;
 }
@@ -108,6 +108,17 @@ struct ProfileElement
     }
 };
 
+/// Adds the difference on one facet; p: what is known of it but `first`.
+template<int D>
+void addDifference(const ProfileElement<D>& profile, const FluidProperties& fluid, double area, const double (*shape)[4], FacetPressure p, std::vector<FacetPressure>& result)
+{
+    const std::array<Corner<D>, D> corners = cornersOf<D>(shape);
+    integrate<D>(corners, area, profile.pressure, -1, p.first);
+    integrate<D>(corners, area, profile.potential, fluid.rhoGas, p.first);
+    integrateWet<D>(corners, area, profile.level, profile.potential, fluid.rhoLiquid - fluid.rhoGas, p.first);
+    result.push_back(p);
+}
+
 template<int D>
 void addSurfacePressureT(const SimplexMesh& mesh, const FluidProperties& fluid, const InterfacePlanes& planes, const std::vector<double>& ofSurface,
     const std::vector<double>& levels, const Cover& cover, std::vector<FacetPressure>& result)
@@ -119,14 +130,19 @@ void addSurfacePressureT(const SimplexMesh& mesh, const FluidProperties& fluid, 
         for (int f = cut.facetStart; profile.isAny && f < cut.facetEnd; ++f)
         {
             const CutFacet& facet = cover.facets[f];
-            FacetPressure p{cut.element, facet.solid, {}, {}};
+            FacetPressure p{cut.element, facet.solid, {}, {}, false};
             std::copy_n(facet.normal, D, p.normal);
-            const std::array<Corner<D>, D> corners = cornersOf<D>(facet);
-            integrate<D>(corners, facet.area, profile.pressure, -1, p.first);
-            integrate<D>(corners, facet.area, profile.potential, fluid.rhoGas, p.first);
-            integrateWet<D>(corners, facet.area, profile.level, profile.potential, fluid.rhoLiquid - fluid.rhoGas, p.first);
-            result.push_back(p);
+            addDifference<D>(profile, fluid, facet.area, facet.shape, p, result);
         }
+    }
+    for (const CoveredFacet& facet : cover.coveredFacets)
+    {
+        const double area = std::hypot(facet.area[0], facet.area[1], D == 3 ? facet.area[2] : 0.0);
+        const ProfileElement<D> profile(mesh, fluid, planes, ofSurface, levels, facet.element);
+        if (!profile.isAny || area == 0) continue;
+        FacetPressure p{facet.element, facet.solid, {}, {}, true};
+        for (int d = 0; d < D; ++d) p.normal[d] = facet.area[d]/area;
+        addDifference<D>(profile, fluid, facet.nPoints*area, facet.shape, p, result);
     }
 }
 

@@ -18,9 +18,10 @@ struct FacetPressure
     int element, solid;
     double normal[3];   ///< unit, into the solid, in-plane components
     double first[4];    ///< int N_a over the facet of the difference [N, in 2D N/m]
+    bool isCovered;     ///< of what solids cover of each other (CoveredFacet), its area's sign in the normal
 };
 
-/// Adds those of facets where there is a difference. level: nNodes, SurfaceLevel; ofSurface: nNodes, surfaceDensity().
+/// Adds those of facets and covered ones where there is a difference. level: nNodes, SurfaceLevel; ofSurface: nNodes, surfaceDensity().
 void addSurfacePressure(const SimplexMesh& mesh, const FluidProperties& fluid, const InterfacePlanes& planes, const std::vector<double>& ofSurface,
     const std::vector<double>& level, const Cover& cover, std::vector<FacetPressure>& result);
 
