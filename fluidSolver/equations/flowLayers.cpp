@@ -227,12 +227,13 @@ void FlowEquation::addCoveredVolume(int s, const Turning<D>& turning, const Cove
     }
 }
 
-/// The weight of a solid's share of what the layer holds, which is as little of the flow as the solid is: without it the share's buoyancy would lift the solid.
+/// The weight of a moving solid's share of what the layer holds, which is as little of the flow as the solid is: without it the share's buoyancy would lift the solid.
+/// What a structure's share is besides its own part is not known.
 template<int D>
 void FlowEquation::addLayerWeight(int s, const Turning<D>& turning, const CoveredVolume& volume)
 {
     constexpr int N = D + 1, nDof = RigidArm<D>::nDof, nAxes = nDof - D;
-    if (!mesh_.isOwnedElement[volume.element]) return;
+    if (!mesh_.isOwnedElement[volume.element] || (*step_.solids)[s].kind == Solid::Kind::Fixed) return;
     const int* nodes = &mesh_.elements[std::size_t(volume.element)*N];
     double load[nDof] = {};
     for (int b = 0; b < N; ++b)

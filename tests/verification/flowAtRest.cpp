@@ -67,7 +67,7 @@ TEST_CASE("water at rest around a fixed cut cylinder stays at rest and carries i
     CHECK(std::abs(force[0]) < 1e-6);
 }
 
-TEST_CASE("water at rest around boxes that touch stays at rest, carries what they displace and presses none of them sideways")
+TEST_CASE("water at rest around boxes that touch stays at rest, carries what each displaces and presses none of them sideways")
 {
     usePetsc();
     for (const int dim : {2, 3})
@@ -82,31 +82,27 @@ TEST_CASE("water at rest around boxes that touch stays at rest, carries what the
             fluid.start(restState(mesh), true);
             // two side by side on a fixed one, a fourth on both; 2D: by their section
             const double depth = dim == 2 ? 1 : 0.7;
-            const Vec3 size(0.5, 0.4, depth), places[] = {{0.02, -0.4, 0}, {-0.25, 0, 0}, {0.25, 0, 0}, {0.05, 0.4, 0}};
+            const Vec3 size(0.5, 0.4, depth), base(1.4, 0.4, dim == 2 ? depth : 0.8), places[] = {{0.02, -0.4, 0}, {-0.25, 0, 0}, {0.25, 0, 0}, {0.05, 0.4, 0}};
             std::vector<Solid> solids(4);
             for (int s = 0; s < 4; ++s)
             {
                 solids[s].kind = s == 0 ? Solid::Kind::Fixed : Solid::Kind::Prescribed;
-                solids[s].shape = makeBox(Vec3::Zero(), s == 0 ? Vec3(1.4, 0.4, depth + 0.1) : size);
+                solids[s].shape = makeBox(Vec3::Zero(), s == 0 ? base : size);
                 solids[s].pose.position = places[s] + Vec3(by, by + (s == 3 ? 0.002 : 0), 0);
             }
             CoverBuilder builder(mesh, fluid.graph(), halo);
             const Cover& cover = builder.build(solids);
             fluid.setGeometry(&cover, &solids, true);
             makeSteps(fluid);
-            double displaced = 0, carried = 0;
             for (int s = 0; s < 4; ++s)
             {
                 const Vec3 force = fluid.solidLoads()[s].force;
-                displaced += cover.solidVolume[s];
-                carried += force[1];
-                std::printf("%dD, by %.3f, solid %d: force of the water %.6f %.6f, volume %.6f, speed %.1e\n", dim, by, s, force[0], force[1], mesh.thickness*(s == 0 ? cover.solidVolume[0] : size.prod()), largestSpeed(fluid));
-                if (s == 0) continue;
+                std::printf("%dD, by %.3f, solid %d: force of the water %.6f %.6f, volume %.6f, speed %.1e\n", dim, by, s, force[0], force[1], mesh.thickness*(s == 0 ? base : size).prod(), largestSpeed(fluid));
                 CHECK(std::abs(force[0]) < 1e-6*size.prod());
-                CHECK(force[1] == near(mesh.thickness*size.prod(), 0.04)); // what the cut leaves no fluid between them is theirs, too
+                if (s > 0) CHECK(force[1] == near(mesh.thickness*size.prod(), 1e-9));
+                else CHECK(force[1] == near(mesh.thickness*base.prod(), 0.035));   // what the cut leaves no fluid between them is the structure's
             }
             CHECK(largestSpeed(fluid) < 1e-8);
-            CHECK(carried == near(mesh.thickness*displaced, 5e-10));
         }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Round bodies at the surface of water at rest do not start to turn about their axes, however coarse the mesh: pressure has no moment about them.
-#include "support/floatingBody.hpp"
+#include "support/floatingBodies.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -17,15 +17,15 @@ double spinUp(int dim, std::shared_ptr<const Shape> shape, double radius)
 {
     Solid solid;
     solid.shape = shape;
-    FloatingBody body(dim, shape, 500, radius);
+    FloatingBodies body(dim, shape, 500, radius);
     double largest = 0;
     for (int k = 0; k < nPlaces; ++k)
     {
-        const Vec3 position = Vec3(0.5, 0.5, 0.5) + (haltonPoint(k) - Vec3::Constant(0.5))/FloatingBody::n;
+        const Vec3 position = Vec3(0.5, 0.5, 0.5) + (haltonPoint(k) - Vec3::Constant(0.5))/FloatingBodies::n;
         const Vec3 spin = solid.turning()*body.release(position, position[dim - 1]).angularVelocity;
-        largest = std::max(largest, spin.norm()*body.inertia()/(body.mass()*FloatingBody::gravity*radius));
+        largest = std::max(largest, spin.norm()*body.inertia()/(body.mass()*FloatingBodies::gravity*radius));
     }
-    std::printf("%dD, %.1f elements a diameter: %.1e\n", dim, 2*radius*FloatingBody::n, largest);
+    std::printf("%dD, %.1f elements a diameter: %.1e\n", dim, 2*radius*FloatingBodies::n, largest);
     return largest;
 }
 

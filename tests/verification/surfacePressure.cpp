@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// A body that floats in water at rest stays where it is whatever the surface's profile is beside it: nothing pushes it to where the profile is wide.
-#include "support/floatingBody.hpp"
+#include "support/floatingBodies.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -18,12 +18,12 @@ struct Largest { double along = 0, up = 0; };
 /// Largest acceleration in the first step, along the surface and upward, over gravity. Half immersed, density half of water's.
 Largest accelerations(int dim, std::shared_ptr<const Shape> shape, const std::function<double(const double* x)>& profile)
 {
-    FloatingBody body(dim, shape, 500, radius);
+    FloatingBodies body(dim, shape, 500, radius);
     Largest largest;
     for (int k = 0; k < nPlaces; ++k)
     {
-        const Vec3 position = Vec3(0.5, 0.5, 0.5) + (haltonPoint(k) - Vec3::Constant(0.5))/FloatingBody::n;
-        Vec3 a = body.release(position, position[dim - 1], profile).velocity/FloatingBody::gravity;
+        const Vec3 position = Vec3(0.5, 0.5, 0.5) + (haltonPoint(k) - Vec3::Constant(0.5))/FloatingBodies::n;
+        Vec3 a = body.release(position, position[dim - 1], profile).velocity/FloatingBodies::gravity;
         largest.up = std::max(largest.up, std::abs(a[dim - 1]));
         a[dim - 1] = 0;
         largest.along = std::max(largest.along, a.norm());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// One body in water at rest on a mesh with moved nodes, released: what the first step makes of it.
+/// Bodies in water at rest on a mesh with moved nodes, released: what the first step makes of them.
 #pragma once
 
 #include "equations/fluid.hpp"
@@ -17,14 +17,14 @@ namespace flotsam
 {
 
 /// A closed tank, the unit square or cube with slip walls, gravity against its last direction.
-class FloatingBody
+class FloatingBodies
 {
 public:
     static constexpr double gravity = 10;   // [m/s^2]
     static constexpr int n = 10;            // elements a side
 
-    /// Of density `density`; mean inertia of a disc of this radius, about any axis.
-    FloatingBody(int dim, std::shared_ptr<const Shape> shape, double density, double radius)
+    /// Alike, of density `density`; mean inertia of a disc of this radius, about any axis.
+    FloatingBodies(int dim, std::shared_ptr<const Shape> shape, double density, double radius)
     :   shape_(std::move(shape)), mesh_(makeBoxMesh(MPI_COMM_WORLD, dim, {n, n, n}, {0, 0, 0}, {1, 1, 1}, 0.12)), halo_(mesh_, MPI_COMM_WORLD), cells_(mesh_)
     {
         usePetsc();
@@ -42,12 +42,21 @@ public:
     /// Acceleration and angular acceleration in the first step of a body at `position`, water up to `level`; profile: width of the surface's, over the default one.
     Motion release(const Vec3& position, double level, const std::function<double(const double* x)>& profile = {})
     {
+        return release(std::vector<Vec3>{position}, level, profile)[0];
+    }
+
+    /// Of bodies at these positions, without what contact makes of it.
+    std::vector<Motion> release(const std::vector<Vec3>& positions, double level, const std::function<double(const double* x)>& profile = {})
+    {
         constexpr double dt = 0.002;
         Fluid fluid(mesh_, halo_, properties_, controls_, allPatches(mesh_, BoundaryPatch::Velocity::Slip));
-        std::vector<Solid> solids(1);
-        solids[0].kind = Solid::Kind::Free;
-        solids[0].shape = shape_;
-        solids[0].pose.position = position;
+        std::vector<Solid> solids(positions.size());
+        for (std::size_t s = 0; s < solids.size(); ++s)
+        {
+            solids[s].kind = Solid::Kind::Free;
+            solids[s].shape = shape_;
+            solids[s].pose.position = positions[s];
+        }
         fluid.start(restState(fluid, level, profile), false);
         CoverBuilder builder(mesh_, fluid.graph(), halo_);
         for (int pass = 0; pass < 6; ++pass) builder.buildExactVolume(solids);
@@ -58,11 +67,14 @@ public:
         body.force[mesh_.dim - 1] = -gravity*mass_;
         fluid.beginStep(dt);
         fluid.assemble();
-        REQUIRE(fluid.solve({body}).hasConverged);
-        Motion motion = fluid.solidMotions()[0];
-        motion.velocity /= dt;
-        motion.angularVelocity /= dt;
-        return motion;
+        REQUIRE(fluid.solve(std::vector<FreeBody>(solids.size(), body)).hasConverged);
+        std::vector<Motion> motions = fluid.solidMotions();
+        for (Motion& motion : motions)
+        {
+            motion.velocity /= dt;
+            motion.angularVelocity /= dt;
+        }
+        return motions;
     }
 
 private:
