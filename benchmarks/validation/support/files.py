@@ -99,6 +99,16 @@ def fixed(value):
     return f"type fixedValue; value uniform {value};"
 
 
+def openTank(wall, walls=("walls",), top="atmosphere", empty=()):
+    """U, p_rgh and alpha.water of a tank at rest that is open at the top; wall: condition of the velocity on its walls; empty: patches across a plane."""
+    def patches(wallCondition, topCondition):
+        return {**{patch: wallCondition for patch in walls}, top: topCondition, **{patch: "empty" for patch in empty}}
+
+    return merged(field("U", patches(wall, "type pressureInletOutletVelocity; value uniform (0 0 0);")),
+                  field("p_rgh", patches("type fixedFluxPressure; value uniform 0;", "type totalPressure; p0 uniform 0;")),
+                  field("alpha.water", patches("zeroGradient", "type inletOutlet; inletValue uniform 0; value uniform 0;")))
+
+
 def oneFluid(nu, rho):
     return {"constant/transportProperties": dictionary("transportProperties", f"transportModel Newtonian;\nnu {nu:.9g};\nrho {rho:.9g};")}
 

@@ -7,7 +7,7 @@ import numpy as np
 from runner import foam
 from runner.cases import Run
 from support.compare import small
-from support.files import blockMesh, column, control, even, field, gravity, merged, twoFluids
+from support.files import blockMesh, column, control, even, gravity, merged, openTank, twoFluids
 
 COLUMN, GRAVITY = 0.05715, 9.81
 UNIT = np.sqrt(COLUMN / (2 * GRAVITY))      # of time [s]
@@ -35,9 +35,7 @@ def files(run, _folder):
     return merged(
         blockMesh(even(0, 9 * a, 9 * n), even(0, 2.25 * a, 9 * n // 4), even(0, 0.01, 1),
                   {"walls": ("wall", "x- x+ y-"), "top": ("patch", "y+"), "frontAndBack": ("empty", "z- z+")}),
-        field("U", {"walls": run.options["wall"], "top": "type pressureInletOutletVelocity; value uniform (0 0 0);", "frontAndBack": "empty"}),
-        field("p_rgh", {"walls": "type fixedFluxPressure; value uniform 0;", "top": "type totalPressure; p0 uniform 0; value uniform 0;", "frontAndBack": "empty"}),
-        field("alpha.water", {"walls": "zeroGradient", "top": "type inletOutlet; inletValue uniform 0; value uniform 0;", "frontAndBack": "empty"}),
+        openTank(run.options["wall"], top="top", empty=["frontAndBack"]),
         column(a, 2 * a),
         twoFluids(), gravity(y=-GRAVITY), control(END * UNIT, 1e-4, functions="\n".join(lines)))
 

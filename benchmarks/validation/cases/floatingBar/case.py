@@ -6,7 +6,7 @@ from runner import foam
 from runner.cases import Run
 from support import floating
 from support.compare import absolute, relative, small
-from support.files import around, blockMesh, bodies, control, even, field, gravity, level, merged, twoFluids
+from support.files import around, blockMesh, bodies, control, even, gravity, level, merged, openTank, twoFluids
 
 SIDE, END, LAST = 0.02, 5.0, 0.5
 #            width [m], relative density, turn at the start [degrees]
@@ -32,9 +32,7 @@ def files(run, _folder):
     depth = floating.equilibrium(width, SIDE, density, np.radians(turn))[1]
     return merged(
         blockMesh(x, y, even(0, 0.05, 1), {"walls": ("wall", "x- x+ y-"), "atmosphere": ("patch", "y+"), "frontAndBack": ("empty", "z- z+")}),
-        field("U", {"walls": "noSlip", "atmosphere": "type pressureInletOutletVelocity; value uniform (0 0 0);", "frontAndBack": "empty"}),
-        field("p_rgh", {"walls": "type fixedFluxPressure; value uniform 0;", "atmosphere": "type totalPressure; p0 uniform 0;", "frontAndBack": "empty"}),
-        field("alpha.water", {"walls": "zeroGradient", "atmosphere": "type inletOutlet; inletValue uniform 0; value uniform 0;", "frontAndBack": "empty"}),
+        openTank("noSlip", empty=["frontAndBack"]),
         level("(0 1 0)"),
         twoFluids(nuWater=1e-3), gravity(y=-9.81),
         bodies(f"""bodies

@@ -5,7 +5,7 @@ import numpy as np
 from runner import foam
 from runner.cases import Run
 from support.compare import relative, small
-from support.files import blockMesh, bodies, control, even, field, gravity, level, merged, twoFluids
+from support.files import blockMesh, bodies, control, even, gravity, level, merged, openTank, twoFluids
 
 DIAMETER, LENGTH, END, SETTLED = 0.06, 0.24, 10.0, 5.0
 PLACE = 0.0073      # [m] beside the tank's middle, where the diagonals are symmetric
@@ -42,14 +42,11 @@ def files(run, _folder):
     is3D = run.variant.endswith("3D")
     width = 0.4 if is3D else h
     length = LENGTH if is3D else width
-    sides = "zeroGradient" if is3D else "empty"
     poses = " ".join(f"{{ position ({x:.9g} {width / 2:.9g} {z:.9g}); }}" for x, z in places(run))
     return merged(
         blockMesh(even(-0.3, 0.3, round(0.6 / h)), even(0, width, max(1, round(width / h))), even(-0.2, 0.2, round(0.4 / h)),
                   {"walls": ("wall", "x- x+ z-"), "atmosphere": ("patch", "z+"), "sides": ("wall" if is3D else "empty", "y- y+")}),
-        field("U", {"walls": "slip", "atmosphere": "type pressureInletOutletVelocity; value uniform (0 0 0);", "sides": "slip" if is3D else "empty"}),
-        field("p_rgh", {"walls": "type fixedFluxPressure; value uniform 0;", "atmosphere": "type totalPressure; p0 uniform 0;", "sides": sides}),
-        field("alpha.water", {"walls": "zeroGradient", "atmosphere": "type inletOutlet; inletValue uniform 0; value uniform 0;", "sides": sides}),
+        openTank("slip", ["walls", "sides"] if is3D else ["walls"], empty=[] if is3D else ["sides"]),
         level("(0 0 1)"),
         twoFluids(), gravity(z=-9.81),
         bodies(f"""bodies

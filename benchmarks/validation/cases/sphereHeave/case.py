@@ -5,7 +5,7 @@ import numpy as np
 from runner import foam, refinement
 from runner.cases import Run
 from support.compare import relative, small
-from support.files import around, blockMesh, bodies, control, field, gravity, level, merged, twoFluids
+from support.files import around, blockMesh, bodies, control, gravity, level, merged, openTank, twoFluids
 
 SOURCE = "Kramer et al. 2021, experiment"
 DIAMETER, DROP, PERIOD, END = 0.3, 0.03, 0.7561, 2.3
@@ -30,13 +30,10 @@ def files(run, _folder):
     side = around(-4, -0.2, 0.2, 4, h, 1.2)
     height = around(-0.9, -0.22, 0.22, 0.4, h, 1.25)
     density = 7.056 / (np.pi / 6 * DIAMETER**3)
-    walls = "type fixedFluxPressure; value uniform 0;"
     return merged(
         refinement.dictionaries(BOX[:levels], "tan1 tan2 normal"),
         blockMesh(side, side, height, {"walls": ("wall", "x- x+ y- y+ z-"), "atmosphere": ("patch", "z+")}),
-        field("U", {"walls": "slip", "atmosphere": "type pressureInletOutletVelocity; value uniform (0 0 0);"}),
-        field("p_rgh", {"walls": walls, "atmosphere": "type totalPressure; p0 uniform 0;"}),
-        field("alpha.water", {"walls": "zeroGradient", "atmosphere": "type inletOutlet; inletValue uniform 0; value uniform 0;"}),
+        openTank("slip"),
         level("(0 0 1)"),
         twoFluids(1e-6, 1.48e-5, 998.2, 1.2), gravity(z=-9.82),
         bodies(f"bodies {{ sphere {{ shape {{ type sphere; radius 0.15; }} density {density:.10g}; position (0 0 {_rest(density) + DROP:.8g}); }} }}"),
