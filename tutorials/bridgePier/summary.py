@@ -9,6 +9,7 @@ def writeSummary(runs, file):
     h, setup = logged["history"], channel.setup
     held = channel.isHeld(h)
     rows = [
+        ("most logs held at a time", int(held.sum(0).max()), f"of {len(h.bodies)}", ""),
         ("logs held at the end", int(held[:, -1].sum()), f"of {len(h.bodies)}", ""),
         ("logs downstream of the pier at the end", int(channel.passedLogs(h)[-1]), f"of {len(h.bodies)}", ""),
         ("drag coefficient of the pier, without logs", float(channel.dragCoefficient(free["force"]["water"], free["down"])), "", "AASHTO 0.7, HEC-RAS 1.33"),
