@@ -105,9 +105,9 @@ void Fluid::extendPhase()
         double away2 = 0;   // from the plane's own point
         for (int d = 0; d < mesh_.dim; ++d) away2 += std::pow(mesh_.x[std::size_t(i)*mesh_.dim + d] - planes_.point(i)[d], 2);
         const double depth = cover_->distance[i], reach = beside*width;
+        level_[i] = planes_.distance(i);    // for the surface's pressure on what solids cover of each other, however far away
         if (std::abs(mean - state_.alpha[i]) > unlike && away2 > depth*depth + reach*reach) continue;
         state_.alpha[i] = mean;
-        level_[i] = planes_.distance(i);
     }
     halo_.update(state_.alpha, 1);
     halo_.update(level_, 1);

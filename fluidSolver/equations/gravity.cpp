@@ -157,10 +157,12 @@ void surfaceDensity(const SimplexMesh& mesh, const FluidProperties& fluid, const
     for (int i = 0; i < mesh.nNodes; ++i)
     {
         double most = 1;    // share of the other fluid
-        if (planes.has(i) && !(cover && cover->distance[i] < 0))
+        const double inFluid = cover ? cover->distance[i] : farDistance;
+        if (planes.has(i) && inFluid >= 0)
         {
             const double h = width[i]/controls.interfaceWidth;
-            most = 1/(1 + std::exp((planes.distanceFromSurface(mesh, i) - h)/width[i]));
+            const double distance = inFluid < h ? std::abs(planes.distance(i)) : planes.distanceFromSurface(mesh, i);
+            most = 1/(1 + std::exp((distance - h)/width[i]));
         }
         result[i] = density(fluid, controls, alpha[i] < 0.5 ? std::min(alpha[i], most) : std::max(alpha[i], 1 - most));
     }
