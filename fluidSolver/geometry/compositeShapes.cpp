@@ -99,6 +99,20 @@ RawMoments sampledExcess(const std::vector<std::shared_ptr<const Shape>>& parts,
     return excess;
 }
 
+/// Rotations that are of both; size: of the shapes [m].
+Symmetry commonSymmetry(const Symmetry& a, const Symmetry& b, double size)
+{
+    using Kind = Symmetry::Kind;
+    const double same = 1e-9;
+    if (a.kind == Kind::None || b.kind == Kind::None) return {};
+    if (a.kind == Kind::Point && b.kind == Kind::Axis) return commonSymmetry(b, a, size);
+    const Vec3 between = b.point - a.point;
+    if (a.kind == Kind::Point) // points both
+        return between.norm() <= same * size ? a : Symmetry{Kind::Axis, a.point, between.normalized()};
+    const bool isOnAxis = between.cross(a.axis).norm() <= same * size;
+    return isOnAxis && (b.kind == Kind::Point || b.axis.cross(a.axis).norm() <= same) ? a : Symmetry{};
+}
+
 } // namespace
 
 double UnionShape::distance(const Vec3& x) const
@@ -135,6 +149,14 @@ VolumeMoments UnionShape::moments() const
         sum.second -= excess.second;
     }
     return sum.aboutCentroid();
+}
+
+Symmetry UnionShape::symmetry() const
+{
+    const auto [lower, upper] = bounds();
+    Symmetry all = parts_[0]->symmetry();
+    for (std::size_t i = 1; i < parts_.size(); ++i) all = commonSymmetry(all, parts_[i]->symmetry(), (upper - lower).norm());
+    return all;
 }
 
 TriSurface UnionShape::surface(double size) const

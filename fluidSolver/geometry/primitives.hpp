@@ -108,6 +108,7 @@ public:
     double distance(const Vec3& x) const override;
     std::array<Vec3, 2> bounds() const override;
     VolumeMoments moments() const override;
+    Symmetry symmetry() const override;
     /// The parts' surfaces one after the other; pieces inside another part are kept.
     TriSurface surface(double size) const override;
     const std::vector<std::shared_ptr<const Shape>>& parts() const { return parts_; }

@@ -29,6 +29,14 @@ double spinUp(int dim, std::shared_ptr<const Shape> shape, double radius)
     return largest;
 }
 
+/// A log with a root wad, of two overlapping cylinders, about its centre of mass.
+std::shared_ptr<const Shape> rootWad(double radius)
+{
+    const Vec3 end(-0.25, 0, 0);
+    const auto shape = makeUnion({makeCylinder(end, Vec3(0.25, 0, 0), radius), makeCylinder(end, Vec3(-0.15, 0, 0), 1.5*radius)});
+    return makePlaced(shape, Eigen::Quaterniond::Identity(), -shape->moments().centroid);
+}
+
 } // namespace
 
 TEST_CASE("round bodies that float do not set themselves spinning")
@@ -39,6 +47,7 @@ TEST_CASE("round bodies that float do not set themselves spinning")
         CHECK(spinUp(3, makeCylinder(Vec3(-0.3, 0, 0), Vec3(0.3, 0, 0), radius), radius) < 5e-3);
         CHECK(spinUp(3, makeCapsule(Vec3(0, -0.2, 0), Vec3(0, 0.2, 0), radius), radius) < 5e-3);
         CHECK(spinUp(3, makeSphere(Vec3::Zero(), radius), radius) < 5e-3);
+        CHECK(spinUp(3, rootWad(radius), radius) < 5e-3);
     }
 }
 
@@ -54,5 +63,17 @@ TEST_CASE("rotations that turn a solid into itself")
     log.shape = makeSphere(Vec3::Zero(), 0.1);
     CHECK((log.turning() - Eigen::Matrix3d::Identity()).norm() == 0);
     log.shape = makeBox(Vec3::Zero(), Vec3(1, 1, 1));
+    CHECK(log.turning().norm() == 0);
+    const auto sphereAt = [](double x) { return makeSphere(Vec3(x, 0, 0), 0.1); };
+    const auto alongX = makeCylinder(Vec3(-1, 0, 0), Vec3(1, 0, 0), 0.1);
+    log.pose.orientation = Eigen::Quaterniond::Identity();
+    const Eigen::Matrix3d aboutX = Vec3::UnitX()*Vec3::UnitX().transpose();
+    log.shape = makeUnion({sphereAt(-0.2), sphereAt(0.3)});
+    CHECK((log.turning() - aboutX).norm() < 1e-12);
+    log.shape = makeUnion({sphereAt(0.9), alongX, makeCylinder(Vec3(1, 0, 0), Vec3(0.8, 0, 0), 0.3)});
+    CHECK((log.turning() - aboutX).norm() < 1e-12);
+    log.shape = makeUnion({alongX, makeCylinder(Vec3(0, -1, 0), Vec3(0, 1, 0), 0.1)});  // a cross
+    CHECK(log.turning().norm() == 0);
+    log.shape = makeUnion({alongX, makeSphere(Vec3(0, 0.05, 0), 0.1)});
     CHECK(log.turning().norm() == 0);
 }
