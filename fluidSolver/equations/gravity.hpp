@@ -17,7 +17,7 @@ namespace flotsam
 
 /// Density of the nodes as far as their surface plane accounts for it: of the fluid of the other side a node has no more than the profile would give it
 /// if the plane were one element length nearer. nNodes; rho where a node has no plane, and inside solids of `cover` (null: none), where the surface goes on
-/// and nothing is adrift, however far its plane comes from. width: nNodes [m].
+/// and nothing is adrift, however far its plane comes from; within an element length of a solid by the distance along the plane's normal alone. width: nNodes [m].
 void surfaceDensity(const SimplexMesh& mesh, const FluidProperties& fluid, const NumericsControls& controls, const InterfacePlanes& planes,
     const Cover* cover, const std::vector<double>& width, const std::vector<double>& alpha, std::vector<double>& result);
 
