@@ -3,6 +3,8 @@
 
 #include "messageStream.H"
 
+#include <algorithm>
+
 namespace flotsam
 {
 
@@ -32,8 +34,7 @@ void warnOfNearSurface(const Foam::volScalarField& alpha, const Foam::volScalarF
     const auto& patches = alpha.mesh().boundary();
     forAll(patches, i)
     {
-        if (patches[i].coupled()) break;    // ranks have only these to themselves
-        if (!pressure.boundaryField()[i].fixesValue()) continue;
+        if (!pressure.boundaryField()[i].fixesValue()) continue;    // those between ranks, which differ from rank to rank, do not
         const Layers here = largestAlpha(alpha, patches[i].faceCells());
         if (halo.max(here.first) >= half || halo.max(here.second) < half) continue;
         Foam::Info<< "Warning: field " << alpha.name() << " of time " << alpha.time().timeName() << ": the surface lies one cell from patch " << patches[i].name()
