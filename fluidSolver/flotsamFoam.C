@@ -225,12 +225,14 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     const CaseControls controls = readCaseControls(runTime);
     const MeshAdapter adapter = makeSimplexMesh(mesh, MPI_COMM_WORLD, verticalAxis(controls.fluid.gravity));
     const Halo halo(adapter.mesh, MPI_COMM_WORLD);
-    const std::vector<BoundaryPatch> boundary = readBoundary(mesh, adapter, halo, controls);
+    std::vector<BoundaryPatch> boundary = readBoundary(mesh, adapter, halo, controls);
     FoamFields fields(mesh, adapter, halo, controls);
     const auto& g = controls.fluid.gravity;
     const Vec3 gravity(g[0], g[1], g[2]);
     const BodiesInput bodies = readBodies(mesh, adapter.mesh, halo, gravity);
     checkEntries(bodies, controls.fluid);
+    for (BoundaryPatch& patch : boundary)
+        patch.stopsBodies = std::find(bodies.wallPatches.begin(), bodies.wallPatches.end(), patch.name) != bodies.wallPatches.end();
     printCaseCheck(controls, adapter, halo, boundary, countScene(bodies));
     PhaseTimers timers;
     if (task == Task::Check)

@@ -227,7 +227,7 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
         for (StructureDefinition& s : input.structures) s.wall = -1;
         return input;
     }
-    const auto patches = wallPatches(dict, mesh);
+    const auto patches = input.wallPatches = wallPatches(dict, mesh);
     const int wallMaterial = patches.empty() ? 0 : readMaterial(dict, "wallMaterial", input.materials);
     for (const std::string& name : patches)
         for (WallDefinition& wall : makeMeshWalls(mesh, mesh.boundaryMesh()[mesh.boundaryMesh().findPatchID(name)], halo, wallMaterial))

@@ -38,6 +38,7 @@ struct BoundaryPatch
 
     std::string name;
     bool isNoSlipWall = false;      ///< of kind Fixed at zero or NoSlip; wins over other patches at shared nodes (flow-rate inlets rely on it)
+    bool stopsBodies = false;       ///< a wall to them (constant/bodies); walls do in any case
     int meshPatch = -1;             ///< index into SimplexMesh::patches
     Velocity velocity = Velocity::Fixed;
     Pressure pressure = Pressure::Natural;

@@ -24,7 +24,7 @@ constexpr double lightDensity = 0.1;  // of a light node over the mean of an ele
 FlowEquation::FlowEquation(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const FluidProperties& fluid,
     const NumericsControls& controls, const std::vector<BoundaryPatch>& patches)
 :   mesh_(mesh), graph_(graph), halo_(halo), fluid_(fluid), controls_(controls), patches_(patches),
-    viscousForce_(mesh, halo), hasInsides_(doesNeedless("insides"))
+    viscousForce_(mesh, halo), beyond_(mesh, halo, fluid, patches), hasInsides_(doesNeedless("insides"))
 {
     const int dim = mesh.dim;
     system_.dim = dim;

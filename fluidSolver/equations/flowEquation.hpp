@@ -3,6 +3,7 @@
 #pragma once
 
 #include "algebra/flowSystem.hpp"
+#include "equations/beyondMesh.hpp"
 #include "equations/elementLoader.hpp"
 #include "equations/rowPrefetch.hpp"
 #include "equations/slipNormals.hpp"
@@ -156,6 +157,7 @@ private:
     RowPrefetch rows_;
     std::vector<char> isStarted_;               // owned nodes: see startRow()
     ViscousForce viscousForce_;
+    BeyondMesh beyond_;
     std::vector<double> defect_;                // owned nodes: see massDefect()
     std::vector<FilmPair> films_;
     struct LayerElement { int element; double share; }; // share of the solids' surface there that they cover of each other

@@ -34,7 +34,9 @@ void FlowEquation::assembleOwnLoads()
     constexpr int nDof = RigidArm<D>::nDof;
     if (step_.surfacePressure)
         for (const FacetPressure& facet : *step_.surfacePressure) addSurfaceLoad<D>(facet);
-    if (step_.surfacePressure || !isLayerNode_.empty()) halo_.sum(ownLoads_.data(), int(ownLoads_.size()));
+    const bool isBeyond = step_.solids && beyond_.isReached(*step_.solids);
+    if (isBeyond) beyond_.addLoads(step_, nDof, ownLoads_);
+    if (step_.surfacePressure || !isLayerNode_.empty() || isBeyond) halo_.sum(ownLoads_.data(), int(ownLoads_.size()));
     for (std::size_t s = 0; s < system_.solids.size(); ++s) system_.solids[s].load.assign(&ownLoads_[s*nDof], &ownLoads_[s*nDof] + nDof);
 }
 

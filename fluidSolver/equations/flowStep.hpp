@@ -32,6 +32,7 @@ struct FlowStepData
     const MassFluxes* massFluxes = nullptr;                 ///< of the last step; null: not extrapolated
     const std::vector<double>* fineScale = nullptr;         ///< nElements*dim: u' of the last solve, part of what convects [m/s]; null: 0
     const std::vector<double>* elementForce = nullptr;      ///< nElements*dim: gravity [N/m^3]
+    const std::vector<double>* level = nullptr;             ///< nNodes: distance from the surface [m], positive in the liquid; null: not found
     const std::vector<FacetPressure>* surfacePressure = nullptr; ///< that solids feel besides p; null: none
     const std::vector<double>* viscousForce = nullptr;      ///< nElements*dim: see ViscousForce [N/m^3]; null: 0
 };

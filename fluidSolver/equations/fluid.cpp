@@ -149,6 +149,7 @@ void Fluid::assemble()
     step.solids = solids_;
     step.patchValues = &values_;
     step.elementForce = &force_;
+    step.level = isGravityBalanced() ? &level_ : nullptr;
     step.surfacePressure = &surfacePressure_;
     step.fineScale = &state_.fineScale;
     step.transport = fluid_.isTwoPhase && !supg_ ? &transport_ : nullptr;

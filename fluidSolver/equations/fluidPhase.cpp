@@ -123,7 +123,7 @@ void Fluid::findDensity(std::vector<double>& rho) const
 /// its memory.
 void Fluid::setGravity(const Cover* cover)
 {
-    const bool isBalanced = fluid_.isTwoPhase && controls_.balancedGravity;
+    const bool isBalanced = isGravityBalanced();
     if (isBalanced)
     {
         findSurface(cover_);

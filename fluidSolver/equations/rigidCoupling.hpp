@@ -48,7 +48,7 @@ struct RigidArm
     // Pressure has no moment about axes around which the solid turns into itself: on its true surface it has none, on a flat facet it has, and would set a round log
     // spinning. turn: this moment of the facet's unit normal (nAxes).
     bool isTurning = false;
-    double normal[D], turn[nAxes];
+    double normal[D] = {}, turn[nAxes] = {};
 
     RigidArm() = default;
     RigidArm(const SimplexMesh& mesh, const Solid& solid, int node)

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "equations/beyondMesh.hpp"
+
+#include "core/patchFaces.hpp"
+#include "equations/linearExtension.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flotsam
+{
+
+namespace
+{
+
+constexpr int divisions = 6;            // of a face's edges: one line along the normal through the middle of every part
+constexpr double partsOfElement = 8;    // of a line, in the size of the face
+constexpr int bodyRings = 6;            // into the body the flow's pressure is continued
+
+bool overlap(const std::array<Vec3, 2>& a, const std::array<Vec3, 2>& b)
+{
+    return (a[0].array() <= b[1].array()).all() && (b[0].array() <= a[1].array()).all();
+}
+
+/// Without what moves its surface for the linear cut: there is none beyond the mesh.
+Solid trueShape(Solid solid)
+{
+    solid.offset = 0;
+    solid.offsetSlope.setZero();
+    return solid;
+}
+
+bool isBody(const Solid& solid) { return solid.kind == Solid::Kind::Free || solid.isLoose; }
+
+/// Shape functions of a face at a point.
+using FacePoint = std::array<double, 3>;
+
+double at(const FacePoint& shape, const double* corners) { return shape[0]*corners[0] + shape[1]*corners[1] + shape[2]*corners[2]; }
+
+/// Points of a face, in the middle of parts of equal size.
+std::vector<FacePoint> middles(int dim)
+{
+    std::vector<FacePoint> points;
+    const double n = divisions;
+    if (dim == 2)
+        for (double k = 0.5; k < n*n; ++k) points.push_back({k/(n*n), 1 - k/(n*n), 0});
+    else
+        for (int i = 0; i < divisions; ++i)
+            for (int j = 0; i + j < divisions; ++j)
+            {
+                points.push_back({(i + 1/3.0)/n, (j + 1/3.0)/n, 1 - (i + j + 2/3.0)/n});
+                if (i + j + 1 < divisions) points.push_back({(i + 2/3.0)/n, (j + 2/3.0)/n, 1 - (i + j + 4/3.0)/n});
+            }
+    return points;
+}
+
+/// What a line has in a body.
+struct Chord
+{
+    double length = 0;
+    double moment = 0;  ///< integral of the way over the length
+};
+
+/// On the line from x along the unit vector n, up to `end` from x, in steps. Where it enters and leaves it counts linearly over a step. The distance says how many steps
+/// have nothing else to show.
+Chord chordIn(const Solid& solid, const Vec3& x, const Vec3& n, double end, double step)
+{
+    Chord chord;
+    const int nSteps = int(std::ceil(end/step));
+    for (int k = 0; k < nSteps;)
+    {
+        const double distance = solid.distance(x + (k + 0.5)*step*n)/step;
+        const int run = std::clamp(int(std::abs(distance) - 0.5), 1, nSteps - k);
+        const double length = run*step*std::clamp(0.5 - distance, 0.0, 1.0);
+        chord.length += length;
+        chord.moment += length*(k + 0.5*run)*step;
+        k += run;
+    }
+    return chord;
+}
+
+} // namespace
+
+/// A face of an open patch.
+struct BeyondMesh::Face
+{
+    int dim = 0;
+    double area = 0, size = 0;              // [m^(dim-1)], [m]
+    Vec3 normal, corners[3];                // out of the mesh; space
+    double pressure[3] = {}, side[3] = {};  // at the corners; side: positive in the liquid
+    Vec3 slope, gravity;                    // along the patch: of the pressure, linear between the corners; gravity
+};
+
+BeyondMesh::BeyondMesh(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& fluid, const std::vector<BoundaryPatch>& patches)
+:   mesh_(mesh), halo_(halo), fluid_(fluid), patches_(patches)
+{
+    constexpr double infinite = 1e300;
+    for (std::size_t p = 0; p < patches.size(); ++p)
+    {
+        const MeshPatch& faces = mesh.patches[patches[p].meshPatch];
+        if (patches[p].stopsBodies || patches[p].isWall() || patches[p].isNoSlipWall || faces.type != "patch") continue;
+        Passage passage{int(p), {Vec3::Constant(infinite), Vec3::Constant(-infinite)}};
+        for (int i : faces.faceNodes)
+        {
+            const Vec3 x = inSpace(&mesh.x[std::size_t(i)*mesh.dim]);
+            passage.bounds[0] = passage.bounds[0].cwiseMin(x);
+            passage.bounds[1] = passage.bounds[1].cwiseMax(x);
+        }
+        for (int d = 0; d < 3; ++d)
+        {
+            passage.bounds[0][d] = halo.min(passage.bounds[0][d]);
+            passage.bounds[1][d] = halo.max(passage.bounds[1][d]);
+        }
+        passages_.push_back(passage);
+    }
+}
+
+Vec3 BeyondMesh::inSpace(const double* inPlane) const
+{
+    Vec3 x;
+    x[mesh_.axes[2]] = mesh_.planeOffset;
+    for (int d = 0; d < mesh_.dim; ++d) x[mesh_.axes[d]] = inPlane[d];
+    return x;
+}
+
+bool BeyondMesh::isReached(const Passage& passage, const Solid& solid) const
+{
+    return isBody(solid) && overlap(passage.bounds, solid.spaceBounds());
+}
+
+bool BeyondMesh::isReached(const std::vector<Solid>& solids) const
+{
+    for (const Passage& passage : passages_)
+        for (const Solid& solid : solids)
+            if (isReached(passage, solid)) return true;
+    return false;
+}
+
+/// Of the flow, t^n, continued into bodies.
+std::vector<double> BeyondMesh::pressures(const FlowStepData& step) const
+{
+    std::vector<double> p = step.state->p;
+    extendLinearly(mesh_, halo_, *step.cover, p, bodyRings);
+    return p;
+}
+
+/// Those that are this rank's own. pressure: at the nodes of the patch if it prescribes them, else at all.
+std::vector<BeyondMesh::Face> BeyondMesh::makeFaces(const FlowStepData& step, const BoundaryPatch& patch, const std::vector<double>& pressure) const
+{
+    std::vector<Face> faces;
+    const MeshPatch& all = mesh_.patches[patch.meshPatch];
+    for (std::size_t f = 0; f < all.faceElement.size(); ++f)
+        if (all.isOwnedFace[f]) faces.push_back(makeFace(step, patch, f, pressure));
+    return faces;
+}
+
+BeyondMesh::Face BeyondMesh::makeFace(const FlowStepData& step, const BoundaryPatch& patch, std::size_t f, const std::vector<double>& pressure) const
+{
+    const int dim = mesh_.dim;
+    const MeshPatch& faces = mesh_.patches[patch.meshPatch];
+    const int* nodes = &faces.faceNodes[f*dim];
+    const int* corners = &mesh_.elements[std::size_t(faces.faceElement[f])*(dim + 1)];
+    Face face;
+    face.dim = dim;
+    const bool isPrescribed = patch.pressure != BoundaryPatch::Pressure::Natural;
+    double v[3] = {}, slope[3] = {};
+    outwardVector(mesh_, faces, f, v);
+    for (int k = 0; k < dim; ++k)
+    {
+        const int i = nodes[k];
+        face.corners[k] = inSpace(&mesh_.x[std::size_t(i)*dim]);
+        face.side[k] = step.level ? (*step.level)[i] : step.state->alpha[i] - 0.5;
+        face.pressure[k] = pressure[isPrescribed ? std::lower_bound(patch.nodes.begin(), patch.nodes.end(), i) - patch.nodes.begin() : i];
+        const auto corner = std::find(corners, corners + dim + 1, i) - corners;
+        for (int d = 0; d < dim; ++d) slope[d] += face.pressure[k]*mesh_.gradN[(std::size_t(faces.faceElement[f])*(dim + 1) + corner)*dim + d];
+    }
+    face.normal = inSpace(v);
+    face.slope = inSpace(slope);
+    face.gravity = Vec3(fluid_.gravity[0], fluid_.gravity[1], fluid_.gravity[2]);
+    if (dim == 2) face.normal[mesh_.axes[2]] = face.slope[mesh_.axes[2]] = 0;
+    face.area = face.normal.norm();
+    face.size = dim == 2 ? face.area : std::sqrt(2*face.area);
+    face.normal /= face.area;
+    for (Vec3* along : {&face.slope, &face.gravity}) *along -= along->dot(face.normal)*face.normal;
+    return face;
+}
+
+/// share: weightShare().
+void BeyondMesh::addFace(const Face& face, const Solid& solid, double share, double* load) const
+{
+    const Vec3 centre = solid.pose.position, toCentre = centre - face.corners[0];
+    const double radius = solid.radius(), end = toCentre.dot(face.normal) + radius;
+    if (end <= 0 || (toCentre - toCentre.dot(face.normal)*face.normal).norm() > radius + 2*face.size) return;
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+    const auto add = [&](const Vec3& f, const Vec3& at)
+    {
+        force += f;
+        moment += (at - centre).cross(f);
+    };
+    const auto points = middles(face.dim);
+    const double area = face.area/points.size();
+    for (const FacePoint& shape : points)
+    {
+        Vec3 x = Vec3::Zero();
+        for (int k = 0; k < face.dim; ++k) x += shape[k]*face.corners[k];
+        if (solid.distance(x) < 0) add(-at(shape, face.pressure)*area*face.normal, x);
+        const Chord chord = chordIn(solid, x, face.normal, end, face.size/partsOfElement);
+        if (chord.length > 0) add(-share*density(face, shape)*chord.length*area*face.gravity, x + chord.moment/chord.length*face.normal);
+    }
+    for (int d = 0; d < mesh_.dim; ++d) load[d] += force[mesh_.axes[d]];
+    if (mesh_.dim == 2) load[2] += moment[mesh_.axes[2]];
+    else for (int d = 0; d < 3; ++d) load[3 + d] += moment[d];
+}
+
+/// Of the fluid's weight along the patch what the prescribed pressure carries there, 0 to 1. Of the whole patch: in single faces that the surface crosses the linear
+/// pressure does not tell.
+double BeyondMesh::weightShare(const std::vector<Face>& faces) const
+{
+    const auto points = middles(mesh_.dim);
+    double sums[2] = {};    // carried, there
+    for (const Face& face : faces)
+    {
+        double weight = 0;
+        for (const FacePoint& shape : points) weight += density(face, shape)*face.gravity.squaredNorm()/points.size();
+        sums[0] += face.area*face.slope.dot(face.gravity);
+        sums[1] += face.area*weight;
+    }
+    halo_.sum(sums, 2);
+    return sums[1] > 0 ? std::clamp(sums[0]/sums[1], 0.0, 1.0) : 0;
+}
+
+double BeyondMesh::density(const Face& face, const FacePoint& shape) const { return at(shape, face.side) > 0 ? fluid_.rhoLiquid : fluid_.rhoGas; }
+
+void BeyondMesh::addLoads(const FlowStepData& step, int nDof, std::vector<double>& loads) const
+{
+    const std::vector<Solid>& solids = *step.solids;
+    std::vector<double> ofFlow;
+    for (const Passage& passage : passages_)
+    {
+        if (std::none_of(solids.begin(), solids.end(), [&](const Solid& solid) { return isReached(passage, solid); })) continue;
+        const BoundaryPatch& patch = patches_[passage.patch];
+        const bool isPrescribed = patch.pressure != BoundaryPatch::Pressure::Natural;
+        if (!isPrescribed && ofFlow.empty()) ofFlow = pressures(step);
+        const std::vector<Face> faces = makeFaces(step, patch, isPrescribed ? (*step.patchValues)[passage.patch].pressure : ofFlow);
+        const double share = isPrescribed ? weightShare(faces) : 1;
+        for (std::size_t s = 0; s < solids.size(); ++s)
+        {
+            if (!isReached(passage, solids[s])) continue;
+            const Solid solid = trueShape(solids[s]);
+            for (const Face& face : faces) addFace(face, solid, share, &loads[s*nDof]);
+        }
+    }
+}
+
+} // namespace flotsam

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Loads of the fluid on what of bodies lies beyond the mesh, where they leave it or come in: without them a log would tip over the end of the bed as soon as its tip is
+/// outside, where nothing carries it, and the pressure on its other end would drive it out.
+///
+/// The channel is taken to go on: p is constant along the normal n of an open patch, beyond it. With grad p = its gradient along the patch, G,
+///
+///     - int p n_s dS (surface beyond the patch) = - int_patch (p n chi + G l) dA
+///
+/// by the divergence theorem; chi: 1 where the patch's point lies in the body, l: length of the body on the line from there along n. Where the patch prescribes
+/// the pressure, p and G are those of the prescribed values (a free overfall, p = 0, carries nothing). Else p is the flow's, continued linearly into the body, and G
+/// the weight of the fluid at the patch. The viscous force, the added mass and a wake beyond the mesh are left out.
+#pragma once
+
+#include "algebra/halo.hpp"
+#include "core/boundary.hpp"
+#include "core/controls.hpp"
+#include "equations/flowStep.hpp"
+
+#include <array>
+
+namespace flotsam
+{
+
+class BeyondMesh
+{
+public:
+    /// Of the patches that bodies can pass (BoundaryPatch::stopsBodies). References must outlive this. Collective.
+    BeyondMesh(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& fluid, const std::vector<BoundaryPatch>& patches);
+
+    /// Whether a body may reach beyond one of these patches. The same on every rank.
+    bool isReached(const std::vector<Solid>& solids) const;
+
+    /// Adds this rank's share of the loads to those of bodies, nDof numbers each: force, moment about the pose's position, 2D: per unit thickness. Collective.
+    void addLoads(const FlowStepData& step, int nDof, std::vector<double>& loads) const;
+
+private:
+    struct Face;
+    struct Passage { int patch; std::array<Vec3, 2> bounds; }; // patch: in patches_; bounds: of all of its faces, all ranks [m]
+
+    bool isReached(const Passage& passage, const Solid& solid) const;
+    std::vector<double> pressures(const FlowStepData& step) const;
+    Face makeFace(const FlowStepData& step, const BoundaryPatch& patch, std::size_t f, const std::vector<double>& pressure) const;
+    std::vector<Face> makeFaces(const FlowStepData& step, const BoundaryPatch& patch, const std::vector<double>& pressure) const;
+    double weightShare(const std::vector<Face>& faces) const;
+    double density(const Face& face, const std::array<double, 3>& shape) const;
+    void addFace(const Face& face, const Solid& solid, double share, double* load) const;
+    Vec3 inSpace(const double* inPlane) const;
+
+    const SimplexMesh& mesh_;
+    const Halo& halo_;
+    const FluidProperties& fluid_;
+    const std::vector<BoundaryPatch>& patches_;
+    std::vector<Passage> passages_;
+};
+
+} // namespace flotsam
