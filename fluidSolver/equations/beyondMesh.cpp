@@ -185,7 +185,7 @@ BeyondMesh::Face BeyondMesh::makeFace(const FlowStepData& step, const BoundaryPa
     return face;
 }
 
-/// share: weightShare().
+/// share: weightShare(). Pressure has no moment about axes around which the solid turns into itself (rigidCoupling.hpp).
 void BeyondMesh::addFace(const Face& face, const Solid& solid, double share, double* load) const
 {
     const Vec3 centre = solid.pose.position, toCentre = centre - face.corners[0];
@@ -207,6 +207,7 @@ void BeyondMesh::addFace(const Face& face, const Solid& solid, double share, dou
         const Chord chord = chordIn(solid, x, face.normal, end, face.size/partsOfElement);
         if (chord.length > 0) add(-share*density(face, shape)*chord.length*area*face.gravity, x + chord.moment/chord.length*face.normal);
     }
+    moment -= solid.turning()*moment;
     for (int d = 0; d < mesh_.dim; ++d) load[d] += force[mesh_.axes[d]];
     if (mesh_.dim == 2) load[2] += moment[mesh_.axes[2]];
     else for (int d = 0; d < 3; ++d) load[3 + d] += moment[d];
