@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 flotsam_test(flowAtRest verification SOURCES verification/flowAtRest.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
+flotsam_test(openTop verification SOURCES verification/openTop.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(tankAtRest verification SOURCES verification/tankAtRest.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(patchWalls verification SOURCES verification/patchWalls.cpp

@@ -137,6 +137,7 @@ void Fluid::assemble()
         cover = &gas_->cover(cover_);
     }
     setGravity(cover);
+    if (isGravityBalanced()) balancePatchPressures();
     findBasins(cover);
     if (cover_) setPocketPressures();
     FlowStepData step;

@@ -102,6 +102,7 @@ private:
     void extendPhase();
     void findSurface(const Cover* cover);
     void findDensity(std::vector<double>& rho) const;
+    void balancePatchPressures();
     bool isGravityBalanced() const { return fluid_.isTwoPhase && controls_.balancedGravity; }
     void setGravity(const Cover* cover);
     void findBasins(const Cover* cover);

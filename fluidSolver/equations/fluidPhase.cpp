@@ -136,4 +136,28 @@ void Fluid::setGravity(const Cover* cover)
     if (isBalanced && cover) addSurfacePressure(mesh_, fluid_, planes_, surfaceDensity_, level_, *cover, surfacePressure_);
 }
 
+/// Prescribed pressures as of a sharp surface, and what the profile has besides: by the densities of the profile itself liquid would be drawn through an open top one
+/// element above the surface, whose nodes have traces of it. A node's fluid is the one it has more of: in thin sheets planes may be those of their other side. Inside solids
+/// as they are.
+void Fluid::balancePatchPressures()
+{
+    const auto isOfProfile = [this](int i) { return planes_.has(i) && !(cover_ && cover_->distance[i] < 0); };
+    std::vector<double> sharp = alphaOfPatches();
+    for (int i : planes_.nodes())
+        if (isOfProfile(i)) sharp[i] = sharp[i] > 0.5;
+    const BoundaryState state{state_.time + time_.dt, state_.u.data(), sharp.data()};
+    PatchValues values;
+    for (std::size_t p = 0; p < patches_.size(); ++p)
+    {
+        if (patches_[p].pressure == BoundaryPatch::Pressure::Natural) continue;
+        patches_[p].evaluate(state, values);
+        values_[p].pressure.swap(values.pressure);
+        for (std::size_t k = 0; k < patches_[p].nodes.size(); ++k)
+        {
+            const int i = patches_[p].nodes[k];
+            if (isOfProfile(i)) values_[p].pressure[k] += profilePressure(mesh_, fluid_, planes_, surfaceDensity_, i, sharp[i]);
+        }
+    }
+}
+
 } // namespace flotsam

@@ -150,6 +150,19 @@ bool balancedPotentials(const SimplexMesh& mesh, const double* g, const Interfac
 template bool balancedPotentials<2>(const SimplexMesh&, const double*, const InterfacePlanes&, const std::vector<double>&, int, double*);
 template bool balancedPotentials<3>(const SimplexMesh&, const double*, const InterfacePlanes&, const std::vector<double>&, int, double*);
 
+double profilePressure(const SimplexMesh& mesh, const FluidProperties& fluid, const InterfacePlanes& planes, const std::vector<double>& ofSurface, int i, double sharp)
+{
+    const double* x = &mesh.x[std::size_t(i)*mesh.dim];
+    double g[3], potential = 0;
+    for (int d = 0; d < mesh.dim; ++d)
+    {
+        g[d] = fluid.gravity[mesh.axes[d]];
+        potential += g[d]*x[d];
+    }
+    potential -= mesh.dim == 2 ? footPotential<2>(mesh, g, planes, i, x) : footPotential<3>(mesh, g, planes, i, x);
+    return (ofSurface[i] - (sharp > 0.5 ? fluid.rhoLiquid : fluid.rhoGas))*potential;
+}
+
 void surfaceDensity(const SimplexMesh& mesh, const FluidProperties& fluid, const NumericsControls& controls, const InterfacePlanes& planes,
     const Cover* cover, const std::vector<double>& width, const std::vector<double>& alpha, std::vector<double>& result)
 {

@@ -28,6 +28,9 @@ InterfacePlanes::Extent planesExtent(const NumericsControls& controls, const std
 template<int dim>
 bool balancedPotentials(const SimplexMesh& mesh, const double* g, const InterfacePlanes& planes, const std::vector<double>& ofSurface, int e, double* potential);
 
+/// What a node's pressure has at rest beyond that of two fluids with a sharp surface between them [Pa]. sharp: the node's share of liquid then, 0 or 1.
+double profilePressure(const SimplexMesh& mesh, const FluidProperties& fluid, const InterfacePlanes& planes, const std::vector<double>& ofSurface, int i, double sharp);
+
 /// result: nElements*dim [N/m^3]. rho, ofSurface (surfaceDensity()): nNodes. planes: null or empty: f = rho_e g everywhere.
 void gravityForce(const SimplexMesh& mesh, const std::array<double, 3>& gravity, const std::vector<double>& rho,
     const InterfacePlanes* planes, const std::vector<double>& ofSurface, const Cover* cover, std::vector<double>& result);

@@ -6,7 +6,6 @@
 #include "foam/boundaryConditions.H"
 #include "foam/boundaryReader.H"
 #include "foam/cellMeans.H"
-#include "foam/surfaceNearPatch.H"
 
 #include "Time.H"
 #include "fixedValueFvPatchField.H"
@@ -110,7 +109,6 @@ FoamFields::FoamFields(const Foam::fvMesh& mesh, const MeshAdapter& adapter, con
     if (!controls.fluid.isTwoPhase) return;
     alpha_ = std::make_unique<Foam::volScalarField>(inputField(mesh, controls.alphaName), mesh);
     checkFractions(*alpha_, halo);
-    warnOfNearSurface(*alpha_, pressureRgh_ ? *pressureRgh_ : *pressure_, halo);
     pointAlpha_ = newField<Foam::pointScalarField>(mesh, points, "pointAlpha", Foam::dimless);
 }
 

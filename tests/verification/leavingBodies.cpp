@@ -2,6 +2,7 @@
 /// Bodies that reach beyond the mesh through an open patch: the fluid carries them as if it went on there (equations/beyondMesh.hpp).
 #include "equations/fluid.hpp"
 #include "equations/initialProfile.hpp"
+#include "equations/materials.hpp"
 #include "equations/surfaceLevel.hpp"
 #include "geometry/coverBuilder.hpp"
 #include "support/flowCases.hpp"
@@ -45,10 +46,7 @@ public:
         {
             values.pressure.assign(nodes.size(), 0.0);
             for (std::size_t k = 0; k < nodes.size() && end == End::Water; ++k)
-            {
-                const double share = std::clamp(s.alpha[nodes[k]], 0.0, 1.0);
-                values.pressure[k] = (rho*share + properties_.rhoGas*(1 - share))*g*(level_ - height(nodes[k]));
-            }
+                values.pressure[k] = density(properties_, controls_, s.alpha[nodes[k]])*g*(level_ - height(nodes[k]));
             values.alpha.assign(nodes.size(), 0.0);
         };
     }
