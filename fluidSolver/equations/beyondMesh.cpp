@@ -15,6 +15,7 @@ namespace
 
 constexpr int divisions = 6;            // of a face's edges: one line along the normal through the middle of every part
 constexpr double partsOfElement = 8;    // of a line, in the size of the face
+constexpr double steepest = 0.87;       // sine of the angle between a face's normal and gravity, at least: 60 degrees
 constexpr int bodyRings = 6;            // into the body the flow's pressure is continued
 
 bool overlap(const std::array<Vec3, 2>& a, const std::array<Vec3, 2>& b)
@@ -144,13 +145,18 @@ std::vector<double> BeyondMesh::pressures(const FlowStepData& step) const
     return p;
 }
 
-/// Those that are this rank's own. pressure: at the nodes of the patch if it prescribes them, else at all.
+/// Those that are this rank's own, without tops and floors: a channel does not go on upward. pressure: at the nodes of the patch if it prescribes them, else at all.
 std::vector<BeyondMesh::Face> BeyondMesh::makeFaces(const FlowStepData& step, const BoundaryPatch& patch, const std::vector<double>& pressure) const
 {
     std::vector<Face> faces;
     const MeshPatch& all = mesh_.patches[patch.meshPatch];
     for (std::size_t f = 0; f < all.faceElement.size(); ++f)
-        if (all.isOwnedFace[f]) faces.push_back(makeFace(step, patch, f, pressure));
+    {
+        if (!all.isOwnedFace[f]) continue;
+        const Face face = makeFace(step, patch, f, pressure);
+        const double g = Vec3(fluid_.gravity[0], fluid_.gravity[1], fluid_.gravity[2]).norm();
+        if (face.gravity.norm() >= steepest*g) faces.push_back(face);
+    }
     return faces;
 }
 

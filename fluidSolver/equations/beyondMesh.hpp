@@ -2,7 +2,7 @@
 /// Loads of the fluid on what of bodies lies beyond the mesh, where they leave it or come in: without them a log would tip over the end of the bed as soon as its tip is
 /// outside, where nothing carries it, and the pressure on its other end would drive it out.
 ///
-/// The channel is taken to go on: p is constant along the normal n of an open patch, beyond it. With grad p = its gradient along the patch, G,
+/// The channel is taken to go on: p is constant along the normal n of an open patch, beyond it (within 30 degrees of a vertical one: not above a top). With grad p = its gradient along the patch, G,
 ///
 ///     - int p n_s dS (surface beyond the patch) = - int_patch (p n chi + G l) dA
 ///

@@ -83,6 +83,9 @@ public:
         return load;
     }
 
+    /// The end becomes the top.
+    void turnGravity() { properties_.gravity = {-g, 0, 0}; }
+
     /// What acts on a body beyond the end alone: force, moment [N, N m].
     std::vector<double> loadBeyond(std::shared_ptr<const Shape> shape, const Vec3& position)
     {
@@ -185,7 +188,7 @@ TEST_CASE("bodies are carried by their displaced weight wherever the mesh ends")
     }
 }
 
-TEST_CASE("beyond a patch the pressure that it prescribes acts, and none where bodies are stopped")
+TEST_CASE("beyond a patch the pressure that it prescribes acts, and none above a top nor where bodies are stopped")
 {
     const auto block = makeBox(Vec3::Zero(), Vec3(0.5, 0.3, 0.2));
     const Vec3 centre(1.05, 0.45, 0.3);     // 0.3 of its length are outside
@@ -200,6 +203,9 @@ TEST_CASE("beyond a patch the pressure that it prescribes acts, and none where b
     CHECK(load[5] == within(0, 1e-3*up*beyond));
     for (const Vec3& inside : {Vec3(0.7, 0.45, 0.3), Vec3(0.749, 0.45, 0.3)})
         for (const double l : OpenTank(3, 1, End::Water).loadBeyond(block, inside)) CHECK(l == 0);
+    OpenTank openAbove(3, 1, End::Water);
+    openAbove.turnGravity();
+    for (const double l : openAbove.loadBeyond(block, centre)) CHECK(l == 0);
     for (const End end : {End::Overfall, End::Bar})
         for (const double l : OpenTank(3, 1, end).loadBeyond(block, centre)) CHECK(l == 0);
 }
