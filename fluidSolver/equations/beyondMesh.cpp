@@ -15,7 +15,7 @@ namespace
 
 constexpr int divisions = 6;            // of a face's edges: one line along the normal through the middle of every part
 constexpr double partsOfElement = 8;    // of a line, in the size of the face
-constexpr double steepest = 0.87;       // sine of the angle between a face's normal and gravity, at least: 60 degrees
+constexpr double steepest = 0.87;       // sine of the angle between a face's normal and gravity, at least (60 degrees)
 constexpr int bodyRings = 6;            // into the body the flow's pressure is continued
 
 bool overlap(const std::array<Vec3, 2>& a, const std::array<Vec3, 2>& b)

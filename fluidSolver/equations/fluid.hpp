@@ -124,6 +124,7 @@ private:
     NumericsControls controls_;
     std::vector<BoundaryPatch> patches_;
     std::vector<PatchValues> values_;
+    PatchValues sharpValues_;           // work of balancePatchPressures()
     std::vector<double> patchAlpha_;    // see alphaOfPatches()
 
     FlowState state_, before_;      // before_: alpha levels at the start of the step

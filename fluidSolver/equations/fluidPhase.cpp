@@ -142,22 +142,23 @@ void Fluid::setGravity(const Cover* cover)
 void Fluid::balancePatchPressures()
 {
     const auto isOfProfile = [this](int i) { return planes_.has(i) && !(cover_ && cover_->distance[i] < 0); };
-    std::vector<double> sharp = alphaOfPatches();
+    std::vector<double>& sharp = x_;    // void until the first guess
+    sharp = alphaOfPatches();
     for (int i : planes_.nodes())
         if (isOfProfile(i)) sharp[i] = sharp[i] > 0.5;
     const BoundaryState state{state_.time + time_.dt, state_.u.data(), sharp.data()};
-    PatchValues values;
     for (std::size_t p = 0; p < patches_.size(); ++p)
     {
         if (patches_[p].pressure == BoundaryPatch::Pressure::Natural) continue;
-        patches_[p].evaluate(state, values);
-        values_[p].pressure.swap(values.pressure);
+        patches_[p].evaluate(state, sharpValues_);
+        values_[p].pressure.swap(sharpValues_.pressure);
         for (std::size_t k = 0; k < patches_[p].nodes.size(); ++k)
         {
             const int i = patches_[p].nodes[k];
             if (isOfProfile(i)) values_[p].pressure[k] += profilePressure(mesh_, fluid_, planes_, surfaceDensity_, i, sharp[i]);
         }
     }
+    x_.clear();
 }
 
 } // namespace flotsam
