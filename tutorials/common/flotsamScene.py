@@ -128,9 +128,10 @@ def _polyData(points, triangles):
 
 
 def _floor(bounds, up):
-    """The lower face of the domain's box."""
+    """The lower face of the domain's box, a little below it: in one plane with the water's own it shows through in specks."""
     plane = vtk.vtkPlaneSource()
     corner = [bounds[0], bounds[2], bounds[4]]
+    corner[up] -= 2e-3 * (bounds[2 * up + 1] - bounds[2 * up])
     ends = []
     for d in (d for d in range(3) if d != up):
         end = list(corner)
