@@ -20,6 +20,7 @@
 #include "argList.H"
 #include "fvMesh.H"
 
+#include <algorithm>
 #include <cmath>
 
 namespace flotsam

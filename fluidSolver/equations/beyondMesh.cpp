@@ -33,6 +33,20 @@ Solid trueShape(Solid solid)
 
 bool isBody(const Solid& solid) { return solid.kind == Solid::Kind::Free || solid.isLoose; }
 
+/// A vector of the mesh's plane.
+Vec3 inSpace(const SimplexMesh& mesh, const double* inPlane)
+{
+    Vec3 v = Vec3::Zero();
+    for (int d = 0; d < mesh.dim; ++d) v[mesh.axes[d]] = inPlane[d];
+    return v;
+}
+
+Vec3 placeOf(const SimplexMesh& mesh, int node)
+{
+    const std::array<double, 3> x = mesh.spacePoint(node);
+    return {x[0], x[1], x[2]};
+}
+
 /// Shape functions of a face at a point.
 using FacePoint = std::array<double, 3>;
 
@@ -85,7 +99,6 @@ Chord chordIn(const Solid& solid, const Vec3& x, const Vec3& n, double end, doub
 /// A face of an open patch.
 struct BeyondMesh::Face
 {
-    int dim = 0;
     double area = 0, size = 0;              // [m^(dim-1)], [m]
     Vec3 normal, corners[3];                // out of the mesh; space
     double pressure[3] = {}, side[3] = {};  // at the corners; side: positive in the liquid
@@ -93,7 +106,7 @@ struct BeyondMesh::Face
 };
 
 BeyondMesh::BeyondMesh(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& fluid, const std::vector<BoundaryPatch>& patches)
-:   mesh_(mesh), halo_(halo), fluid_(fluid), patches_(patches)
+:   mesh_(mesh), halo_(halo), fluid_(fluid), gravity_(fluid.gravity[0], fluid.gravity[1], fluid.gravity[2]), patches_(patches), points_(middles(mesh.dim))
 {
     constexpr double infinite = 1e300;
     for (std::size_t p = 0; p < patches.size(); ++p)
@@ -103,7 +116,7 @@ BeyondMesh::BeyondMesh(const SimplexMesh& mesh, const Halo& halo, const FluidPro
         Passage passage{int(p), {Vec3::Constant(infinite), Vec3::Constant(-infinite)}};
         for (int i : faces.faceNodes)
         {
-            const Vec3 x = inSpace(&mesh.x[std::size_t(i)*mesh.dim]);
+            const Vec3 x = placeOf(mesh, i);
             passage.bounds[0] = passage.bounds[0].cwiseMin(x);
             passage.bounds[1] = passage.bounds[1].cwiseMax(x);
         }
@@ -114,14 +127,6 @@ BeyondMesh::BeyondMesh(const SimplexMesh& mesh, const Halo& halo, const FluidPro
         }
         passages_.push_back(passage);
     }
-}
-
-Vec3 BeyondMesh::inSpace(const double* inPlane) const
-{
-    Vec3 x;
-    x[mesh_.axes[2]] = mesh_.planeOffset;
-    for (int d = 0; d < mesh_.dim; ++d) x[mesh_.axes[d]] = inPlane[d];
-    return x;
 }
 
 bool BeyondMesh::isReached(const Passage& passage, const Solid& solid) const
@@ -154,8 +159,7 @@ std::vector<BeyondMesh::Face> BeyondMesh::makeFaces(const FlowStepData& step, co
     {
         if (!all.isOwnedFace[f]) continue;
         const Face face = makeFace(step, patch, f, pressure);
-        const double g = Vec3(fluid_.gravity[0], fluid_.gravity[1], fluid_.gravity[2]).norm();
-        if (face.gravity.norm() >= steepest*g) faces.push_back(face);
+        if (face.gravity.norm() >= steepest*gravity_.norm()) faces.push_back(face);
     }
     return faces;
 }
@@ -167,23 +171,21 @@ BeyondMesh::Face BeyondMesh::makeFace(const FlowStepData& step, const BoundaryPa
     const int* nodes = &faces.faceNodes[f*dim];
     const int* corners = &mesh_.elements[std::size_t(faces.faceElement[f])*(dim + 1)];
     Face face;
-    face.dim = dim;
     const bool isPrescribed = patch.pressure != BoundaryPatch::Pressure::Natural;
     double v[3] = {}, slope[3] = {};
     outwardVector(mesh_, faces, f, v);
     for (int k = 0; k < dim; ++k)
     {
         const int i = nodes[k];
-        face.corners[k] = inSpace(&mesh_.x[std::size_t(i)*dim]);
+        face.corners[k] = placeOf(mesh_, i);
         face.side[k] = step.level ? (*step.level)[i] : step.state->alpha[i] - 0.5;
         face.pressure[k] = pressure[isPrescribed ? std::lower_bound(patch.nodes.begin(), patch.nodes.end(), i) - patch.nodes.begin() : i];
         const auto corner = std::find(corners, corners + dim + 1, i) - corners;
         for (int d = 0; d < dim; ++d) slope[d] += face.pressure[k]*mesh_.gradN[(std::size_t(faces.faceElement[f])*(dim + 1) + corner)*dim + d];
     }
-    face.normal = inSpace(v);
-    face.slope = inSpace(slope);
-    face.gravity = Vec3(fluid_.gravity[0], fluid_.gravity[1], fluid_.gravity[2]);
-    if (dim == 2) face.normal[mesh_.axes[2]] = face.slope[mesh_.axes[2]] = 0;
+    face.normal = inSpace(mesh_, v);
+    face.slope = inSpace(mesh_, slope);
+    face.gravity = gravity_;
     face.area = face.normal.norm();
     face.size = dim == 2 ? face.area : std::sqrt(2*face.area);
     face.normal /= face.area;
@@ -191,28 +193,33 @@ BeyondMesh::Face BeyondMesh::makeFace(const FlowStepData& step, const BoundaryPa
     return face;
 }
 
-/// share: weightShare(). Pressure has no moment about axes around which the solid turns into itself (rigidCoupling.hpp).
-void BeyondMesh::addFace(const Face& face, const Solid& solid, double share, double* load) const
+/// share: weightShare().
+void BeyondMesh::addFace(const Face& face, const Solid& solid, double share, Vec3& force, Vec3& moment) const
 {
     const Vec3 centre = solid.pose.position, toCentre = centre - face.corners[0];
     const double radius = solid.radius(), end = toCentre.dot(face.normal) + radius;
     if (end <= 0 || (toCentre - toCentre.dot(face.normal)*face.normal).norm() > radius + 2*face.size) return;
-    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
     const auto add = [&](const Vec3& f, const Vec3& at)
     {
         force += f;
         moment += (at - centre).cross(f);
     };
-    const auto points = middles(face.dim);
-    const double area = face.area/points.size();
-    for (const FacePoint& shape : points)
+    const double area = face.area/points_.size();
+    for (const FacePoint& shape : points_)
     {
         Vec3 x = Vec3::Zero();
-        for (int k = 0; k < face.dim; ++k) x += shape[k]*face.corners[k];
+        for (int k = 0; k < mesh_.dim; ++k) x += shape[k]*face.corners[k];
         if (solid.distance(x) < 0) add(-at(shape, face.pressure)*area*face.normal, x);
         const Chord chord = chordIn(solid, x, face.normal, end, face.size/partsOfElement);
         if (chord.length > 0) add(-share*density(face, shape)*chord.length*area*face.gravity, x + chord.moment/chord.length*face.normal);
     }
+}
+
+/// Pressure has no moment about axes around which the solid turns into itself (rigidCoupling.hpp).
+void BeyondMesh::addSolid(const std::vector<Face>& faces, const Solid& solid, double share, double* load) const
+{
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+    for (const Face& face : faces) addFace(face, solid, share, force, moment);
     moment -= solid.turning()*moment;
     for (int d = 0; d < mesh_.dim; ++d) load[d] += force[mesh_.axes[d]];
     if (mesh_.dim == 2) load[2] += moment[mesh_.axes[2]];
@@ -223,12 +230,11 @@ void BeyondMesh::addFace(const Face& face, const Solid& solid, double share, dou
 /// pressure does not tell.
 double BeyondMesh::weightShare(const std::vector<Face>& faces) const
 {
-    const auto points = middles(mesh_.dim);
     double sums[2] = {};    // carried, there
     for (const Face& face : faces)
     {
         double weight = 0;
-        for (const FacePoint& shape : points) weight += density(face, shape)*face.gravity.squaredNorm()/points.size();
+        for (const FacePoint& shape : points_) weight += density(face, shape)*face.gravity.squaredNorm()/points_.size();
         sums[0] += face.area*face.slope.dot(face.gravity);
         sums[1] += face.area*weight;
     }
@@ -251,11 +257,7 @@ void BeyondMesh::addLoads(const FlowStepData& step, int nDof, std::vector<double
         const std::vector<Face> faces = makeFaces(step, patch, isPrescribed ? (*step.patchValues)[passage.patch].pressure : ofFlow);
         const double share = isPrescribed ? weightShare(faces) : 1;
         for (std::size_t s = 0; s < solids.size(); ++s)
-        {
-            if (!isReached(passage, solids[s])) continue;
-            const Solid solid = trueShape(solids[s]);
-            for (const Face& face : faces) addFace(face, solid, share, &loads[s*nDof]);
-        }
+            if (isReached(passage, solids[s])) addSolid(faces, trueShape(solids[s]), share, &loads[s*nDof]);
     }
 }
 

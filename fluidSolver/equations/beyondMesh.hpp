@@ -43,13 +43,15 @@ private:
     std::vector<Face> makeFaces(const FlowStepData& step, const BoundaryPatch& patch, const std::vector<double>& pressure) const;
     double weightShare(const std::vector<Face>& faces) const;
     double density(const Face& face, const std::array<double, 3>& shape) const;
-    void addFace(const Face& face, const Solid& solid, double share, double* load) const;
-    Vec3 inSpace(const double* inPlane) const;
+    void addFace(const Face& face, const Solid& solid, double share, Vec3& force, Vec3& moment) const;
+    void addSolid(const std::vector<Face>& faces, const Solid& solid, double share, double* load) const;
 
     const SimplexMesh& mesh_;
     const Halo& halo_;
     const FluidProperties& fluid_;
+    Vec3 gravity_;
     const std::vector<BoundaryPatch>& patches_;
+    std::vector<std::array<double, 3>> points_; // shape functions of a face where the lines begin
     std::vector<Passage> passages_;
 };
 

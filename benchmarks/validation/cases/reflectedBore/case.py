@@ -22,7 +22,7 @@ def jump():
 
 BEHIND, BORE = jump()
 END = 0.7 * LENGTH / BORE
-TIMES = 6
+WRITES = 24
 
 title = f"""A stream of {SPEED} m/s, {DEPTH} m deep (Froude number 0.71), in a horizontal slip channel of {LENGTH:g} m meets a wall, 2D. The bore that runs back has the depth of mass and momentum across it ({BEHIND:.4f} m at {BORE:.3f} m/s;
 it is undular and breaks a little). Mean over the half of its length next to the wall and over the later half of the run."""
@@ -37,7 +37,7 @@ def resolution(run):
 def files(run, _folder):
     h = DEPTH / run.n
     end = ("wall", "slip", "type fixedFluxPressure; value uniform 0;", "zeroGradient")
-    return merged(channel.files(LENGTH, HEIGHT, h, DEPTH, SPEED, end), control(END, 0.002, maxDeltaT=0.01, writeInterval=END / TIMES / 4))
+    return merged(channel.files(LENGTH, HEIGHT, h, DEPTH, SPEED, end), control(END, 0.002, maxDeltaT=0.01, writeInterval=END / WRITES))
 
 
 def parameters(_run):
