@@ -2,12 +2,9 @@
 /// Bodies in water at rest on a mesh with moved nodes, released: what the first step makes of them.
 #pragma once
 
-#include "equations/fluid.hpp"
-#include "equations/initialProfile.hpp"
-#include "equations/surfaceLevel.hpp"
 #include "geometry/coverBuilder.hpp"
 #include "support/cutFlows.hpp"
-#include "support/flowCases.hpp"
+#include "support/waterAtRest.hpp"
 
 #include <doctest/doctest.h>
 
@@ -25,7 +22,7 @@ public:
 
     /// Alike, of density `density`; mean inertia of a disc of this radius, about any axis.
     FloatingBodies(int dim, std::shared_ptr<const Shape> shape, double density, double radius)
-    :   shape_(std::move(shape)), mesh_(makeBoxMesh(MPI_COMM_WORLD, dim, {n, n, n}, {0, 0, 0}, {1, 1, 1}, 0.12)), halo_(mesh_, MPI_COMM_WORLD), cells_(mesh_)
+    :   shape_(std::move(shape)), mesh_(makeBoxMesh(MPI_COMM_WORLD, dim, {n, n, n}, {0, 0, 0}, {1, 1, 1}, 0.12)), halo_(mesh_, MPI_COMM_WORLD)
     {
         usePetsc();
         properties_.gravity[dim - 1] = -gravity;
@@ -57,7 +54,7 @@ public:
             solids[s].shape = shape_;
             solids[s].pose.position = positions[s];
         }
-        fluid.start(restState(fluid, level, profile), false);
+        fluid.start(waterAtRest(fluid, controls_, level, profile), false);
         CoverBuilder builder(mesh_, fluid.graph(), halo_);
         for (int pass = 0; pass < 6; ++pass) builder.buildExactVolume(solids);
         fluid.setGeometry(&builder.cover(), &solids, true);
@@ -78,27 +75,9 @@ public:
     }
 
 private:
-    FlowState restState(const Fluid& fluid, double level, const std::function<double(const double* x)>& profile) const
-    {
-        FlowState state = flotsam::restState(mesh_);
-        const int dim = mesh_.dim;
-        double down[3] = {};
-        down[dim - 1] = -1;
-        const std::vector<double> width = interfaceWidth(mesh_, fluid.graph(), halo_, controls_.interfaceWidth);
-        for (int i = 0; i < mesh_.nNodes; ++i)
-        {
-            const double* x = &mesh_.x[std::size_t(i)*dim];
-            state.alpha[i] = profileSlab(&cells_, i, down, level - x[dim - 1], width[i]*(profile ? profile(x) : 1)).mean();
-        }
-        halo_.update(state.alpha, 1);
-        state.alphaOld = state.alphaOlder = state.alpha;
-        return state;
-    }
-
     std::shared_ptr<const Shape> shape_;
     SimplexMesh mesh_;
     Halo halo_;
-    DualCells cells_;
     FluidProperties properties_;
     NumericsControls controls_;
     double mass_, inertia_;

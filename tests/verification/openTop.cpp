@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Water at rest whose surface's profile reaches open patches: what they prescribe is the pressure of a sharp surface, the profile's own comes besides
 /// (docs/numerics/2-momentum.md, 2.8).
-#include "equations/fluid.hpp"
-#include "equations/initialProfile.hpp"
 #include "equations/materials.hpp"
-#include "equations/surfaceLevel.hpp"
-#include "support/flowCases.hpp"
+#include "support/waterAtRest.hpp"
 
 #include <doctest/doctest.h>
 
@@ -52,7 +49,7 @@ public:
     Rest after(double time)
     {
         Fluid fluid(mesh_, halo_, properties_, controls_, patches_);
-        fluid.start(start(fluid), false);
+        fluid.start(waterAtRest(fluid, controls_, level_), false);
         const double before = fluid.liquidVolume();
         while (fluid.state().time < time)
         {
@@ -71,19 +68,6 @@ public:
 
 private:
     double height(int i) const { return mesh_.x[std::size_t(i)*dim_ + dim_ - 1]; }
-
-    FlowState start(const Fluid& fluid) const
-    {
-        FlowState state = restState(mesh_);
-        const DualCells cells(mesh_);
-        double down[3] = {};
-        down[dim_ - 1] = -1;
-        const std::vector<double> width = interfaceWidth(mesh_, fluid.graph(), halo_, controls_.interfaceWidth);
-        for (int i = 0; i < mesh_.nNodes; ++i) state.alpha[i] = profileSlab(&cells, i, down, level_ - height(i), width[i]).mean();
-        halo_.update(state.alpha, 1);
-        state.alphaOld = state.alphaOlder = state.alpha;
-        return state;
-    }
 
     int dim_;
     double level_;
