@@ -9,8 +9,11 @@
 ///
 /// What enters the edge's dual cell from an element over a wall has the velocity that is seen there: on its way through the dual cell's faces (u_b + u - n (n.u))/2 instead
 /// of the mean (u_b + u)/2 of the skew form. The difference, half the mass flux times n (n.u), holds the edge's velocity to the wall that a stream comes along.
+///
+/// Structures that cut the mesh have edges as well (solidEdges.hpp): the same, of velocities relative to the structure, whose load is the reaction.
 #include "equations/elementLoader.hpp"
 #include "equations/flowEquation.hpp"
+#include "equations/rigidCoupling.hpp"
 
 #include <algorithm>
 #include <array>
@@ -68,6 +71,62 @@ double halfEntering(const ElementData<D>& e, int a)
     return -leaving;
 }
 
+/// What an edge element adds, w its test function: Q w and Q u taken out of where volume counts. Q: EdgeElement::across.
+template<int D>
+struct EdgeTerms
+{
+    static constexpr int N = D + 1, B = D + 1;
+
+    const ElementData<D>& data;
+    const EdgeElement& edge;
+    double force[N][D];         ///< gravity on Q w [N], taken from the right-hand side
+    double weight[N];           ///< int N_a, of pressure and gravity
+    double arriving[N];         ///< half of the mass that enters the dual cell [kg/s]
+    double across[N][N][D];     ///< Q_b grad N_a at [a][b]
+    double seen[N][D];          ///< of grad N_a what is along the wall
+
+    EdgeTerms(const ElementData<D>& data_, const EdgeElement& edge_)
+    :   data(data_), edge(edge_)
+    {
+        for (int a = 0; a < N; ++a)
+        {
+            weight[a] = (data.isVarying ? 1 + data.forceShare[a] : 1)*data.first[a];
+            arriving[a] = std::max(0.0, halfEntering(data, a));
+            for (int b = 0; b < N; ++b) acrossWall(b, data.gradN + a*D, across[a][b]);
+            acrossWall(a, data.force, force[a]);
+            for (int d = 0; d < D; ++d)
+            {
+                seen[a][d] = data.gradN[a*D + d] - across[a][a][d];
+                force[a][d] *= weight[a];
+            }
+        }
+    }
+
+    /// Row a, column b.
+    void block(int a, int b, double* m) const
+    {
+        const double gradDiv = data.tauCont*data.volume;
+        std::fill(m, m + B*B, 0.0);
+        for (int k = 0; k < D; ++k)
+        {
+            for (int l = 0; l < D && a == b; ++l) m[k*B + l] = arriving[a]*edge.across[a][k*D + l];
+            for (int l = 0; l < D; ++l) m[k*B + l] += gradDiv*(seen[a][k]*seen[b][l] - data.gradN[a*D + k]*data.gradN[b*D + l]);
+            m[k*B + D] = -weight[a]*across[b][a][k];
+            m[D*B + k] = data.first[b]*across[a][b][k];
+        }
+    }
+
+private:
+    void acrossWall(int corner, const double* v, double* result) const
+    {
+        for (int k = 0; k < D; ++k)
+        {
+            result[k] = 0;
+            for (int l = 0; l < D; ++l) result[k] += edge.across[corner][k*D + l]*v[l];
+        }
+    }
+};
+
 } // namespace
 
 void FlowEquation::findEdgeElements(const std::map<int, SlipNormals>& slip)
@@ -116,44 +175,60 @@ template<int D>
 void FlowEquation::addEdgeElement(const EdgeElement& edge)
 {
     constexpr int N = D + 1, B = D + 1;
-    const int e = edge.element, *nodes = &mesh_.elements[std::size_t(e)*N];
+    const int* nodes = &mesh_.elements[std::size_t(edge.element)*N];
     ElementData<D> data;
-    if (!loadElementData<D>(e, mesh_, step_, fluid_, controls_, nodal_, data)) return;
-    double across[N][N][D], seen[N][D], force[N][D];    // Q_b grad N_a; of grad N_a what is along the wall; Q_a f. Q: EdgeElement::across
-    const auto acrossWall = [&](int corner, const double* v, double* result)
-    {
-        for (int k = 0; k < D; ++k)
-        {
-            result[k] = 0;
-            for (int l = 0; l < D; ++l) result[k] += edge.across[corner][k*D + l]*v[l];
-        }
-    };
-    for (int a = 0; a < N; ++a)
-    {
-        for (int b = 0; b < N; ++b) acrossWall(b, data.gradN + a*D, across[a][b]);
-        for (int d = 0; d < D; ++d) seen[a][d] = data.gradN[a*D + d] - across[a][a][d];
-        acrossWall(a, data.force, force[a]);
-    }
-    const double gradDiv = data.tauCont*data.volume;
+    if (!loadElementData<D>(edge.element, mesh_, step_, fluid_, controls_, nodal_, data)) return;
+    const EdgeTerms<D> terms(data, edge);
     for (int a = 0; a < N; ++a)
     {
         if (nodes[a] >= mesh_.nOwned) continue;
-        const double forced = (data.isVarying ? 1 + data.forceShare[a] : 1)*data.first[a];
-        for (int k = 0; k < D; ++k) system_.rhs[std::size_t(nodes[a])*B + k] -= forced*force[a][k];
-        const double arriving = std::max(0.0, halfEntering(data, a));
+        for (int k = 0; k < D; ++k) system_.rhs[std::size_t(nodes[a])*B + k] -= terms.force[a][k];
         for (int b = 0; b < N; ++b)
         {
-            double m[B*B] = {};
-            for (int k = 0; k < D; ++k)
-            {
-                for (int l = 0; l < D && a == b; ++l) m[k*B + l] = arriving*edge.across[a][k*D + l];
-                for (int l = 0; l < D; ++l) m[k*B + l] += gradDiv*(seen[a][k]*seen[b][l] - data.gradN[a*D + k]*data.gradN[b*D + l]);
-                m[k*B + D] = -forced*across[b][a][k];
-                m[D*B + k] = data.first[b]*across[a][b][k];
-            }
-            system_.matrix.add<D>(graph_.slot(nodes[a], (std::size_t(e)*N + a)*N + b), m);
+            double m[B*B];
+            terms.block(a, b, m);
+            system_.matrix.add<D>(graph_.slot(nodes[a], (std::size_t(edge.element)*N + a)*N + b), m);
         }
     }
+}
+
+/// The same at a structure's edge: the blocks are of the nodal jumps, the structure's row and column follow.
+template<int D>
+void FlowEquation::addSolidEdge(const SolidEdges::Element& edge, const Turning<D>& turning, SolidCoupling& coupling)
+{
+    constexpr int N = D + 1, B = D + 1, nDof = RigidArm<D>::nDof;
+    addEdgeElement<D>(edge);
+    ElementData<D> data;
+    if (!loadElementData<D>(edge.element, mesh_, step_, fluid_, controls_, nodal_, data)) return;
+    const int* nodes = &mesh_.elements[std::size_t(edge.element)*N];
+    const Solid& solid = (*step_.solids)[edge.solid];
+    const EdgeTerms<D> terms(data, edge);
+    const bool isOwned = mesh_.isOwnedElement[edge.element];
+    RigidArm<D> arm[N];
+    RigidBlocks<D> rigid;
+    for (int a = 0; a < N; ++a)
+    {
+        arm[a] = RigidArm<D>(mesh_, solid, nodes[a]);
+        arm[a].onSurface(turning, edge.normal);
+    }
+    for (int a = 0; a < N; ++a)
+    {
+        for (int b = 0; b < N; ++b)
+        {
+            double m[B*B];
+            terms.block(a, b, m);
+            rigid.add(a, b, m, arm);
+        }
+        const int place = placeOf<D>(nodes[a], placeInSolid_, coupling);
+        if (edge.element < mesh_.nInnerElements && nodes[a] < mesh_.nOwned) rigid.subtractColumn(a, &coupling.column[std::size_t(place)*B*nDof]);
+        if (!isOwned) continue;
+        double* load = &ownLoads_[std::size_t(edge.solid)*nDof];
+        arm[a].template addLoads<1>(terms.force[a], load);
+        arm[a].template removeTurning<1>(0, terms.force[a], load);
+    }
+    if (!isOwned) return;
+    for (int b = 0; b < N; ++b) rigid.subtractRow(b, &coupling.row[std::size_t(placeOf<D>(nodes[b], placeInSolid_, coupling))*B*nDof]);
+    rigid.addBlock(arm, coupling.block.data());
 }
 
 template<int D>
@@ -163,27 +238,39 @@ void FlowEquation::assembleEdges()
         if (edge.element < mesh_.nInnerElements) addEdgeElement<D>(edge);
 }
 
-/// From u', which convects with the nodes' velocities: their part across the walls, mean over the element's fluid part.
+/// From u', which convects with the nodes' velocities: their part across the walls, mean over the element's fluid part. Of structures relative to their motion.
 template<int D>
 void FlowEquation::takeWhatWouldPass(const std::vector<double>& x, std::vector<double>& result) const
 {
     constexpr int N = D + 1;
     ElementData<D> data;
-    for (const EdgeElement& edge : edgeElements_)
+    const auto take = [&](const EdgeElement& edge, const auto& ofWall)
     {
-        if (!loadElement<D>(edge.element, data)) continue;
+        if (!loadElement<D>(edge.element, data)) return;
         const int* nodes = &mesh_.elements[std::size_t(edge.element)*N];
         for (int a = 0; a < N; ++a)
         {
+            double wall[D] = {};
+            ofWall(nodes[a], wall);
             const double *u = &x[std::size_t(nodes[a])*(D + 1)], share = data.first[a]/data.volume;
             for (int k = 0; k < D; ++k)
-                for (int l = 0; l < D; ++l) result[std::size_t(edge.element)*D + k] -= share*edge.across[a][k*D + l]*u[l];
+                for (int l = 0; l < D; ++l) result[std::size_t(edge.element)*D + k] -= share*edge.across[a][k*D + l]*(u[l] - wall[l]);
         }
+    };
+    for (const EdgeElement& edge : edgeElements_) take(edge, [](int, double*) {});
+    for (const SolidEdges::Element& edge : solidEdges_.elements())
+    {
+        const Solid& solid = (*step_.solids)[edge.solid];
+        double q[6] = {};
+        solidVelocity(mesh_, solid, q);
+        take(edge, [&](int node, double* wall) { RigidArm<D>(mesh_, solid, node).velocity(q, wall); });
     }
 }
 
 template void FlowEquation::assembleEdges<2>();
 template void FlowEquation::assembleEdges<3>();
+template void FlowEquation::addSolidEdge<2>(const SolidEdges::Element&, const Turning<2>&, SolidCoupling&);
+template void FlowEquation::addSolidEdge<3>(const SolidEdges::Element&, const Turning<3>&, SolidCoupling&);
 template void FlowEquation::takeWhatWouldPass<2>(const std::vector<double>&, std::vector<double>&) const;
 template void FlowEquation::takeWhatWouldPass<3>(const std::vector<double>&, std::vector<double>&) const;
 

@@ -7,6 +7,7 @@
 #include "equations/elementLoader.hpp"
 #include "equations/rowPrefetch.hpp"
 #include "equations/slipNormals.hpp"
+#include "equations/solidEdges.hpp"
 #include "equations/viscousForce.hpp"
 #include "equations/volumeFlux.hpp"
 
@@ -26,7 +27,6 @@ struct FreeBody
     double newLoadShare = 1;                            ///< of the step's mean fluid load: see Fluid::newLoadShare()
 };
 
-template<int D> struct FacetGroup;
 template<int D> struct Turning;
 
 class FlowEquation
@@ -66,13 +66,6 @@ public:
 private:
     /// Volume flux from node a to b: conductance (p_a - p_b - hydrostatic) [m^dim/s].
     struct FilmPair { int a, b; double conductance, hydrostatic; };
-
-    /// Element over a wall that ends in a re-entrant edge: of a velocity u at corner a it sees u - Q_a u, along the wall.
-    struct EdgeElement
-    {
-        int element;
-        double across[4][9] = {};   ///< Q, dim*dim: n n of the wall by the element's share over it, at the corners on the edge; elsewhere zero
-    };
 
     void startRow(int i);
     template<int D, class Real> void addElements(const int* e, const ElementData<D, Real>& data);
@@ -117,6 +110,7 @@ private:
     void findEdgeElements(const std::map<int, SlipNormals>& slip);
     template<int D> void assembleEdges();
     template<int D> void addEdgeElement(const EdgeElement& edge);
+    template<int D> void addSolidEdge(const SolidEdges::Element& edge, const Turning<D>& turning, SolidCoupling& coupling);
     template<int D> void takeWhatWouldPass(const std::vector<double>& x, std::vector<double>& result) const;
     template<int D> void addOpenFace(const int* nodes, const double* v, const double* first, const double* second, const double* pressure);
     template<int D> void assembleGasEdge();
@@ -184,7 +178,8 @@ private:
     double gasLevel_ = 0;                       // of the gas at rest's pressure [Pa]
     std::vector<char> isSlipEdge_;              // nNodes: on a re-entrant edge of walls, see SlipNormals
     std::vector<char> isSlipBend_;              // nNodes: where faces of one wall differ in direction
-    std::vector<EdgeElement> edgeElements_;
+    std::vector<EdgeElement> edgeElements_;     // of patches
+    SolidEdges solidEdges_;
     std::vector<int> restingNodes_;             // of no-slip walls that share them with a patch of prescribed velocity: the wall wins
     std::size_t nPatchConstraints_ = 0;         // of the system's, the first ones; then those of shut pockets
     const bool hasInsides_;                     // see algebra/needlessWork.hpp

@@ -27,7 +27,7 @@ void FlowEquation::addSurfaceLoad(const FacetPressure& facet)
     }
 }
 
-/// After the walls and layers, which add to them.
+/// After the walls with their edges and the layers, which add to them.
 template<int D>
 void FlowEquation::assembleOwnLoads()
 {
@@ -36,7 +36,7 @@ void FlowEquation::assembleOwnLoads()
         for (const FacetPressure& facet : *step_.surfacePressure) addSurfaceLoad<D>(facet);
     const bool isBeyond = step_.solids && beyond_.isReached(*step_.solids);
     if (isBeyond) beyond_.addLoads(step_, nDof, ownLoads_);
-    if (step_.surfacePressure || !isLayerNode_.empty() || isBeyond) halo_.sum(ownLoads_.data(), int(ownLoads_.size()));
+    if (step_.surfacePressure || !isLayerNode_.empty() || isBeyond || solidEdges_.isAny()) halo_.sum(ownLoads_.data(), int(ownLoads_.size()));
     for (std::size_t s = 0; s < system_.solids.size(); ++s) system_.solids[s].load.assign(&ownLoads_[s*nDof], &ownLoads_[s*nDof] + nDof);
 }
 

@@ -130,7 +130,10 @@ void FlowEquation::assembleWalls()
     const std::vector<FacetGroup<D>> groups = groupFacets<D>(*step_.cover, mesh_.nInnerElements, mesh_.isOwnedElement);
     placeInSolid_.resize(mesh_.nNodes, -1);
     sweptOfCut_.assign(step_.cover->cuts.size()*(D + 1), 0.0);
-    std::size_t g = 0;
+    ownLoads_.assign(solids.size()*nDof, 0.0);
+    if (controls_.nitsche) solidEdges_.find(groups, mesh_, halo_, *step_.cover, solids);
+    const std::vector<SolidEdges::Element>& edges = solidEdges_.elements();
+    std::size_t g = 0, edge = 0;
     for (std::size_t s = 0; s < solids.size(); ++s)
     {
         SolidCoupling& coupling = system_.solids[s];
@@ -140,10 +143,10 @@ void FlowEquation::assembleWalls()
         solidVelocity(mesh_, solids[s], q);
         const Turning<D> turning(mesh_, solids[s]);
         for (; g < groups.size() && groups[g].solid == int(s); ++g) addFacetGroup<D>(groups[g], solids[s], turning, q, coupling);
+        for (; edge < edges.size() && edges[edge].solid == int(s); ++edge) addSolidEdge<D>(edges[edge], turning, coupling);
         for (int i : coupling.node) placeInSolid_[i] = -1;
     }
     sumSwept<D>();
-    ownLoads_.assign(solids.size()*nDof, 0.0);
 }
 
 /// What elements around a node give, where fluid appears, does not make up for what is swept out of others: bodies that rock on each other open and close a
