@@ -93,7 +93,9 @@ RunOutput::RunOutput(const Foam::Time& runTime, const SimplexMesh& mesh, const H
     descriptions_(describe(bodies)),
     files_(runTime, mesh, halo), log_(timers, runTime.value(), runTime.endTime().value()), forces_(structureNames(bodies)),
     nStructures_(int(bodies.structures.size())), firstStart_(runTime.value())
-{}
+{
+    for (const BodyDefinition& b : bodies.bodies) thinnestBody_ = thinnestBody_ == 0 ? b.thinnest : std::min(thinnestBody_, b.thinnest);
+}
 
 /// flotsamFoam wrote this time, but its state was left behind.
 void RunOutput::warnAnew() const
@@ -324,6 +326,8 @@ void RunOutput::end(const CoupledStep& step)
         summary.bodiesLeft = bodies->count(Presence::Left);
         summary.bodiesAwaited = bodies->count(Presence::Awaited);
     }
+    summary.largestOverlap = largestOverlap_;
+    summary.thinnestBody = thinnestBody_;
     summary.steps = steps_ - firstStep_;
     summary.repeatedSteps = rejected_;
     summary.nodes = mesh_.nGlobal;

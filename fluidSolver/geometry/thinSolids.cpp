@@ -12,14 +12,21 @@ namespace
 
 constexpr double opposite = -0.7;   // cosine of normals below which two faces look to different sides
 
-/// Whether facets around node i look to opposite sides.
-bool seesTwoSides(const NodeGraph& graph, const Cover& cover, int i)
+/// Whether element e is near solid s alone. Between two of them the cut rounds corners, and facets look anywhere.
+bool isNearOne(const SimplexMesh& mesh, const Cover& cover, int e, int s)
+{
+    const int* nodes = &mesh.elements[std::size_t(e)*(mesh.dim + 1)];
+    return std::all_of(nodes, nodes + mesh.dim + 1, [&](int j) { return cover.nearestSolid[j] == s; });
+}
+
+/// Whether facets around node i look to opposite sides of its solid.
+bool seesTwoSides(const SimplexMesh& mesh, const NodeGraph& graph, const Cover& cover, int i)
 {
     std::vector<const double*> normals;
     for (int k = graph.nodeElementStart[i]; k < graph.nodeElementStart[i + 1]; ++k)
     {
-        const int cut = cover.cutIndex[graph.nodeElement[k]];
-        if (cut < 0) continue;
+        const int e = graph.nodeElement[k], cut = cover.cutIndex[e];
+        if (cut < 0 || !isNearOne(mesh, cover, e, cover.nearestSolid[i])) continue;
         for (int f = cover.cuts[cut].facetStart; f < cover.cuts[cut].facetEnd; ++f)
         {
             const double* n = cover.facets[f].normal;
@@ -37,7 +44,7 @@ std::vector<SharedNodes> findSharedNodes(const SimplexMesh& mesh, const NodeGrap
     std::vector<double> sums(4*nSolids, 0.0);   // of each solid: nodes, their coordinates
     for (int i = 0; i < mesh.nOwned; ++i)
     {
-        if (cover.distance[i] >= 0 || !cover.isActiveNode[i] || !seesTwoSides(graph, cover, i)) continue;
+        if (cover.distance[i] >= 0 || !cover.isActiveNode[i] || !seesTwoSides(mesh, graph, cover, i)) continue;
         double* sum = &sums[4*std::size_t(cover.nearestSolid[i])];
         const auto x = mesh.spacePoint(i);
         sum[0] += 1;

@@ -376,3 +376,15 @@ TEST_CASE("nodes in a plate see both of its sides if it is thinner than the elem
         CHECK(find(0.7)[0].count == 0);
     }
 }
+
+TEST_CASE("a body within an element of a structure does not make it thin")
+{
+    for (const int dim : {2, 3})
+        for (const double gap : {0.02, 0.05, 0.1, 0.15})
+        {
+            const CoverScene scene(dim, 10);    // elements of 0.2
+            std::vector<Solid> solids{makeSolid(makeBox(Vec3::Zero(), {0.8, 4, 4}), Vec3(-0.4, 0, 0), Solid::Kind::Fixed), makeSolid(makeSphere(Vec3::Zero(), 0.3), {0.3 + gap, 0, 0}, Solid::Kind::Fixed)};
+            for (Solid& solid : solids) solid.pose.orientation = Eigen::Quaterniond::Identity();
+            CHECK(findSharedNodes(scene.mesh, scene.graph, scene.halo, cutMesh(scene.mesh, scene.graph, scene.halo, solids), solids.size())[0].count == 0);
+        }
+}

@@ -141,6 +141,8 @@ TEST_CASE("the summary names phases, anomalies, mass balance and forces")
     s.bodies = 12;
     s.bodiesLeft = 3;
     s.bodiesAwaited = 4;
+    s.largestOverlap = 0.03;
+    s.thinnestBody = 0.2;
     s.mass.initial = 1;
     s.mass.inflow = 0.5;
     s.mass.outflow = 0.25;
@@ -149,6 +151,6 @@ TEST_CASE("the summary names phases, anomalies, mass balance and forces")
     s.structures = {{"pipe1", {1, 2, 3}, {4, 5, 6}, 7, 8, 9}};
     const std::string text = RunLog::summary(s);
     MESSAGE(text);
-    for (const char* part : {"100 steps, 3 repeated", "75.0", "6.0000", "clipped alpha", "4 of 12 bodies have not come in", "3 of 12 bodies have left", "1e-09", "0.0321", "pipe1"}) CHECK(contains(text, part));
+    for (const char* part : {"100 steps, 3 repeated", "75.0", "6.0000", "clipped alpha", "4 of 12 bodies have not come in", "3 of 12 bodies have left", "0.03 m, 15 % of the thinnest body", "1e-09", "0.0321", "pipe1"}) CHECK(contains(text, part));
     CHECK(s.mass.error() == near(1e-9, 3e-7));
 }
