@@ -3,9 +3,6 @@
 
 #include "core/patchFaces.hpp"
 
-#include "SubField.H"
-#include "polyPatch.H"
-
 #include <algorithm>
 #include <cmath>
 
@@ -73,15 +70,14 @@ PatchNodes makePatchNodes(const SimplexMesh& mesh, const Halo& halo, const MeshP
     return result;
 }
 
-double PatchNodes::outflow(const std::vector<double>& weight) const
+double PatchNodes::outflow(const std::vector<double>& velocity) const
 {
     const int dim = mesh->dim;
     double sum = 0;
     for (std::size_t k = 0; k < faceNodes.size(); ++k)
     {
-        const double* a = &faceArea[k/dim*dim];
-        const double* n = &normal[static_cast<std::size_t>(faceNodes[k])*dim];
-        for (int d = 0; d < dim; ++d) sum += weight[faceNodes[k]]*n[d]*a[d]/dim;
+        const double *a = &faceArea[k/dim*dim], *u = &velocity[static_cast<std::size_t>(faceNodes[k])*dim];
+        for (int d = 0; d < dim; ++d) sum += u[d]*a[d]/dim;
     }
     return sum;
 }
@@ -97,39 +93,6 @@ double PatchNodes::area() const
         sum += std::sqrt(square);
     }
     return sum;
-}
-
-std::vector<double> averageToNodes(const Foam::polyPatch& patch, const MeshAdapter& adapter, const Halo& halo,
-    const std::vector<int>& nodes, const std::vector<double>& faceValues, int width)
-{
-    // deviations from one value, the same on every rank, so that uniform values come back unchanged
-    std::vector<double> reference(width);
-    for (int k = 0; k < width; ++k)
-        reference[k] = halo.max(patch.size() ? faceValues[k] : -1e300);
-
-    const SimplexMesh& mesh = adapter.mesh;
-    std::vector<double> sum(static_cast<std::size_t>(mesh.nNodes)*(width + 1), 0.0);
-    for (Foam::label f = 0; f < patch.size(); ++f)
-    {
-        const double area = Foam::mag(patch.faceAreas()[f]);
-        for (const Foam::label point : patch[f])
-        {
-            double* s = &sum[static_cast<std::size_t>(adapter.pointNode[point])*(width + 1)];
-            for (int k = 0; k < width; ++k) s[k] += area*(faceValues[f*width + k] - reference[k]);
-            s[width] += area;
-        }
-    }
-    halo.sumToOwners(sum, width + 1);
-    halo.update(sum, width + 1);
-
-    std::vector<double> result;
-    result.reserve(nodes.size()*width);
-    for (int i : nodes)
-    {
-        const double* s = &sum[static_cast<std::size_t>(i)*(width + 1)];
-        for (int k = 0; k < width; ++k) result.push_back(reference[k] + (s[width] > 0 ? s[k]/s[width] : 0));
-    }
-    return result;
 }
 
 } // namespace flotsam
