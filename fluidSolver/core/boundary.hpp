@@ -23,6 +23,7 @@ struct BoundaryState
     double time;
     const double* velocity; ///< nNodes*dim
     const double* alpha;    ///< nNodes
+    const double* solidDistance = nullptr;  ///< nNodes, negative inside; null: no solids [m]
 };
 
 struct BoundaryPatch

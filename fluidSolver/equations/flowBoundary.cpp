@@ -270,7 +270,7 @@ void FlowEquation::assembleOpenBoundaries()
         {
             const int* nodes = &faces.faceNodes[f*D];
             if (step_.gas && step_.cover->state[faces.faceElement[f]] == ElementState::Solid) continue;
-            const FaceMoments<D> moments(step_.cover, nodes);
+            const FaceMoments<D> moments(distancesOf(step_.cover), nodes);
             double v[3];
             outwardVector(mesh_, faces, f, v);
             double pressure[D] = {};

@@ -120,22 +120,22 @@ VelocityCondition uniformVelocity(const ConditionInput& in)
 VelocityCondition slip(const ConditionInput&) { return {BoundaryPatch::Velocity::Slip, {}}; }
 VelocityCondition open(const ConditionInput&) { return {BoundaryPatch::Velocity::Open, {}}; }
 
-/// Normal inflow `flow` split over the nodes as `weight`; what counts of it is `share` of the P1 flux.
+/// Normal inflow `flow` through what solids leave of the patch, split over the nodes as `weight`; of the P1 flux `share` counts, as it does for the transport.
 void distributeFlow(const PatchNodes& patch, const Halo& halo, double flow, const std::vector<double>& weight, const std::vector<double>& share,
-    const std::string& name, std::vector<double>& out)
+    const double* solidDistance, const std::string& name, std::vector<double>& out)
 {
     const int dim = patch.mesh->dim;
-    std::vector<double> counted;
-    for (std::size_t k = 0; k < patch.normal.size(); ++k) counted.push_back(weight[k/dim]*share[k/dim]*patch.normal[k]);
-    const double outflow = halo.sum(patch.outflow(counted));
+    std::vector<double> outwards;
+    for (std::size_t k = 0; k < patch.normal.size(); ++k) outwards.push_back(weight[k/dim]*patch.normal[k]);
+    const double outflow = halo.sum(patch.outflow(outwards, share, solidDistance));
     const double area = halo.sum(patch.area());
-    out.assign(counted.size(), 0.0);
+    out.assign(outwards.size(), 0.0);
     if (flow == 0) return;
     if (outflow < 1e-9*area)
         FatalErrorInFunction << "Patch " << name.c_str() << ": a flow rate of " << flow << " m^3/s is given but there is no part of the patch it could "
-            << "pass: its nodes hold no liquid." << Foam::nl
+            << "pass: its nodes hold no liquid, or solids cover it." << Foam::nl
             << "    Set the phase field at the patch to 1 below the water level (setFields), or use flowRateInletVelocity." << Foam::exit(Foam::FatalError);
-    for (std::size_t k = 0; k < out.size(); ++k) out[k] = -flow/outflow*weight[k/dim]*patch.normal[k];
+    for (std::size_t k = 0; k < out.size(); ++k) out[k] = -flow/outflow*outwards[k];
 }
 
 VelocityCondition flowRateVelocity(const ConditionInput& in)
@@ -146,7 +146,7 @@ VelocityCondition flowRateVelocity(const ConditionInput& in)
         failIn(in.dict, "extrapolateProfile yes is not available: the velocity is uniform over the patch. Remove the entry.");
     return fixedVelocity([f = timeFunction<scalar>(in.dict, "volumetricFlowRate"), n = in.nodes, &halo = in.halo,
         all = std::vector<double>(in.nodes->nodes.size(), 1.0), name = in.patch.name()](const BoundaryState& state, std::vector<double>& out)
-        { distributeFlow(*n, halo, f->value(state.time), all, all, name, out); });
+        { distributeFlow(*n, halo, f->value(state.time), all, all, state.solidDistance, name, out); });
 }
 
 VelocityCondition variableHeightVelocity(const ConditionInput& in)
@@ -160,7 +160,7 @@ VelocityCondition variableHeightVelocity(const ConditionInput& in)
     {
         std::vector<double> liquid; // the surface's nodes let gas in as well: what counts is the liquid
         for (int node : n->nodes) liquid.push_back(std::clamp(state.alpha[node], 0.0, 1.0));
-        distributeFlow(*n, halo, f->value(state.time), liquid, liquid, name, out);
+        distributeFlow(*n, halo, f->value(state.time), liquid, liquid, state.solidDistance, name, out);
     });
 }
 

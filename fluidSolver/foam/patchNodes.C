@@ -2,6 +2,7 @@
 #include "foam/patchNodes.H"
 
 #include "core/patchFaces.hpp"
+#include "equations/faceMoments.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -47,6 +48,20 @@ std::vector<double> normalsOf(const SimplexMesh& mesh, const Halo& halo, const M
     return normal;
 }
 
+/// int share u.n over the fluid part of face f.
+template<int D>
+double faceOutflow(const PatchNodes& patch, std::size_t f, const std::vector<double>& velocity, const std::vector<double>& share, const double* solidDistance)
+{
+    const int* corners = &patch.faceNodes[f*D];
+    int nodes[D];
+    for (int k = 0; k < D; ++k) nodes[k] = patch.nodes[corners[k]];
+    const FaceMoments<D> moments(solidDistance, nodes);
+    double sum = 0;
+    for (int ab = 0; ab < D*D; ++ab)
+        for (int d = 0; d < D; ++d) sum += share[corners[ab/D]]*moments.second[ab]*velocity[std::size_t(corners[ab%D])*D + d]*patch.faceArea[f*D + d];
+    return sum;
+}
+
 } // namespace
 
 PatchNodes makePatchNodes(const SimplexMesh& mesh, const Halo& halo, const MeshPatch& patch)
@@ -79,6 +94,14 @@ double PatchNodes::outflow(const std::vector<double>& velocity) const
         const double *a = &faceArea[k/dim*dim], *u = &velocity[static_cast<std::size_t>(faceNodes[k])*dim];
         for (int d = 0; d < dim; ++d) sum += u[d]*a[d]/dim;
     }
+    return sum;
+}
+
+double PatchNodes::outflow(const std::vector<double>& velocity, const std::vector<double>& share, const double* solidDistance) const
+{
+    double sum = 0;
+    for (std::size_t f = 0; f*mesh->dim < faceNodes.size(); ++f)
+        sum += mesh->dim == 2 ? faceOutflow<2>(*this, f, velocity, share, solidDistance) : faceOutflow<3>(*this, f, velocity, share, solidDistance);
     return sum;
 }
 

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Patches of prescribed velocity beside no-slip walls: what passes them (docs/numerics/2-momentum.md, 2.15).
+/// Patches of prescribed velocity: what passes them beside no-slip walls (docs/numerics/2-momentum.md, 2.15) and solids (2.8).
 #include "core/patchFaces.hpp"
 #include "equations/fluid.hpp"
+#include "geometry/coverBuilder.hpp"
 #include "support/flowCases.hpp"
 #include "support/near.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <memory>
 #include <set>
 
 using namespace flotsam;
@@ -58,6 +60,76 @@ void advance(Fluid& fluid, double dt, int steps)
     }
 }
 
+/// Of a box whose top is at height z of the last axis, wider than the mesh.
+Solid slab(int dim, double z, Solid::Kind kind)
+{
+    Solid solid;
+    solid.name = "slab";
+    solid.kind = kind;
+    solid.wall = Solid::Wall::Slip;
+    Vec3 size(20, 20, 20);
+    size[dim - 1] = 2;
+    solid.shape = makeBox(Vec3::Zero(), size);
+    solid.pose.position = (z - 1)*Vec3::Unit(dim - 1);
+    return solid;
+}
+
+/// A duct 1 high full of water under gas that is nowhere; a slab covers its lower part, from the inlet to the open end.
+class CoveredDuct
+{
+public:
+    CoveredDuct(int dim, double move, double height, Solid::Kind kind)
+    :   mesh_(makeBoxMesh(MPI_COMM_WORLD, dim, dim == 2 ? std::array{10, 5, 1} : std::array{6, 3, 5}, {0, 0, 0}, {2, dim == 2 ? 1 : 0.6, 1}, move)), halo_(mesh_, MPI_COMM_WORLD),
+        graph_(mesh_), builder_(mesh_, graph_, halo_), height_(height)
+    {
+        controls_.tolerance = 1e-10;
+        patches_ = allPatches(mesh_, Kind::Slip);
+        patches_[0] = makePatch(mesh_, 0, Kind::Fixed, [](const double*, double) { return std::array<double, 3>{speed, 0, 0}; }, 1);
+        patches_[0].phase = BoundaryPatch::Phase::Inflow;
+        patches_[1] = makePatch(mesh_, 1, Kind::Open);
+        fluid_ = std::make_unique<Fluid>(mesh_, halo_, properties_, controls_, patches_);
+        solids_ = {slab(dim, height, kind)};
+        FlowState start = restState(mesh_);
+        for (int i = 0; i < mesh_.nNodes; ++i) start.u[std::size_t(i)*dim] = speed;
+        start.uOld = start.u;
+        fluid_->start(start, false);
+        fluid_->setGeometry(&builder_.build(solids_), &solids_, false);
+    }
+
+    /// rise: of the slab during the step [m].
+    TransportReport advance(double dt, double rise = 0)
+    {
+        if (rise != 0)
+        {
+            fluid_->keepGeometry();
+            solids_[0].pose.position[mesh_.dim - 1] += rise;
+            solids_[0].motion.velocity[mesh_.dim - 1] = rise/dt;
+            fluid_->setGeometry(&builder_.build(solids_), &solids_, true);
+        }
+        const TransportReport report = fluid_->beginStep(dt);
+        fluid_->assemble();
+        REQUIRE(fluid_->solve({}).hasConverged);
+        fluid_->endStep();
+        height_ += rise;
+        return report;
+    }
+
+    double width() const { return mesh_.dim == 2 ? 1 : 0.6; }
+    double height() const { return height_; }
+
+private:
+    SimplexMesh mesh_;
+    Halo halo_;
+    NodeGraph graph_;
+    CoverBuilder builder_;
+    FluidProperties properties_;
+    NumericsControls controls_;
+    std::vector<BoundaryPatch> patches_;
+    std::vector<Solid> solids_;
+    std::unique_ptr<Fluid> fluid_;
+    double height_;
+};
+
 } // namespace
 
 TEST_CASE("a uniform inlet between no-slip walls brings its velocity times its area")
@@ -103,4 +175,39 @@ TEST_CASE("a lid that moves along itself does not move the walls beside it")
             if (p != 3) walls.insert(patches[p].nodes.begin(), patches[p].nodes.end());
         for (int i : patches[3].nodes) CHECK(fluid.state().u[std::size_t(i)*dim] == (walls.count(i) ? 0 : speed));
     }
+}
+
+TEST_CASE("what a structure leaves of an inlet brings its area times the velocity")
+{
+    usePetsc();
+    constexpr double dt = 0.02;
+    for (const int dim : {2, 3})
+        for (const double move : {0.0, 0.1})
+            for (const double height : {0.4, 0.33, 0.59})  // a plane of nodes, if they are not moved; between them
+            {
+                CoveredDuct duct(dim, move, height, Solid::Kind::Fixed);
+                for (int step = 0; step < 3; ++step)
+                {
+                    const TransportReport report = duct.advance(dt);
+                    const double expected = speed*(1 - height)*duct.width()*dt;
+                    CHECK(report.inflow == near(expected, 1e-9));
+                    CHECK(std::abs(report.redistributed) < 1e-8*expected);
+                }
+            }
+}
+
+TEST_CASE("a moving cover of an inlet counts with its mean over the step")
+{
+    usePetsc();
+    constexpr double dt = 0.02;
+    for (const int dim : {2, 3})
+        for (const double rise : {0.03, -0.03})
+        {
+            CoveredDuct duct(dim, 0.1, 0.43, Solid::Kind::Prescribed);
+            for (int step = 0; step < 6; ++step)
+            {
+                const double mean = duct.height() + 0.5*rise;
+                CHECK(duct.advance(dt, rise).inflow == near(speed*(1 - mean)*duct.width()*dt, 1e-9));
+            }
+        }
 }
