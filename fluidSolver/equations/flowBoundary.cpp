@@ -90,7 +90,7 @@ void FlowEquation::buildConstraints()
     isPressureWeak_.assign(mesh_.nNodes, 0);
 }
 
-/// Nodes of no-slip walls at which other patches prescribe the velocity. Not those of `wall` type: they may move along themselves, but nothing passes.
+/// Nodes of no-slip walls at which the velocity is prescribed. Patches of `wall` type do not move them: they may move along themselves, but nothing passes.
 void FlowEquation::findWallRims(const std::vector<char>& isFixed)
 {
     std::vector<char> isResting(mesh_.nNodes, 0);
@@ -101,22 +101,26 @@ void FlowEquation::findWallRims(const std::vector<char>& isFixed)
         if (isResting[i]) restingNodes_.push_back(i);
     for (std::size_t p = 0; p < patches_.size(); ++p)
     {
-        const MeshPatch& faces = mesh_.patches[patches_[p].meshPatch];
-        if (patches_[p].velocity != BoundaryPatch::Velocity::Fixed || patches_[p].isNoSlipWall || faces.type == "wall") continue;
-        std::map<int, std::array<double, 3>> area;  // owned nodes see all of their faces
-        for (std::size_t f = 0; f < faces.faceElement.size(); ++f)
-        {
-            double v[3];
-            outwardVector(mesh_, faces, f, v);
-            for (const int* i = &faces.faceNodes[f*mesh_.dim], *end = i + mesh_.dim; i != end; ++i)
-                for (int d = 0; d < mesh_.dim && *i < mesh_.nOwned && isResting[*i]; ++d) area[*i][d] += v[d];
-        }
-        for (const auto& [node, v] : area)
-        {
-            const auto at = std::lower_bound(patches_[p].nodes.begin(), patches_[p].nodes.end(), node) - patches_[p].nodes.begin();
-            rimNodes_.push_back({node, int(p), int(at), v});
-        }
+        const bool isWall = patches_[p].isNoSlipWall || mesh_.patches[patches_[p].meshPatch].type == "wall";
+        if (patches_[p].velocity == BoundaryPatch::Velocity::Fixed && !isWall) addRimNodes(int(p), isResting);
     }
+}
+
+void FlowEquation::addRimNodes(int p, const std::vector<char>& isResting)
+{
+    const int dim = mesh_.dim;
+    const MeshPatch& faces = mesh_.patches[patches_[p].meshPatch];
+    const std::vector<int>& nodes = patches_[p].nodes;
+    std::map<int, std::array<double, 3>> area;
+    for (std::size_t k = 0; k < faces.faceNodes.size(); ++k)
+    {
+        const int i = faces.faceNodes[k];
+        if (i >= mesh_.nOwned || !isResting[i]) continue;   // owned nodes see all of their faces
+        double v[3];
+        outwardVector(mesh_, faces, k/dim, v);
+        for (int d = 0; d < dim; ++d) area[i][d] += v[d];
+    }
+    for (const auto& [node, v] : area) rimNodes_.push_back({node, p, int(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin()), v});
 }
 
 /// A node that an inlet shares with a no-slip wall moves with the inlet, and the wall holds the fluid on its faces, as everywhere. Resting nodes would make a layer without

@@ -145,6 +145,7 @@ private:
     void setMaterials();
     void buildConstraints();
     void findWallRims(const std::vector<char>& isFixed);
+    void addRimNodes(int p, const std::vector<char>& isResting);
     void setRimVelocities(const std::vector<PatchValues>& values, std::vector<double>& x) const;
 
     const SimplexMesh& mesh_;
