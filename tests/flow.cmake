@@ -2,6 +2,7 @@
 flotsam_test(flowAtRest verification SOURCES verification/flowAtRest.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(openTop verification SOURCES verification/openTop.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
+flotsam_test(inlets verification SOURCES verification/inlets.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(tankAtRest verification SOURCES verification/tankAtRest.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(patchWalls verification SOURCES verification/patchWalls.cpp

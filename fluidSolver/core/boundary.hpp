@@ -23,6 +23,7 @@ struct BoundaryState
     double time;
     const double* velocity; ///< nNodes*dim
     const double* alpha;    ///< nNodes
+    const double* solidDistance = nullptr;  ///< nNodes, negative inside; null: no solids [m]
 };
 
 struct BoundaryPatch
@@ -37,7 +38,7 @@ struct BoundaryPatch
     enum class Phase { Natural, Inflow };               ///< Inflow: PatchValues::alpha where the fluid enters, else natural
 
     std::string name;
-    bool isNoSlipWall = false;      ///< of kind Fixed at zero or NoSlip; wins over other patches at shared nodes (flow-rate inlets rely on it)
+    bool isNoSlipWall = false;      ///< of kind Fixed at zero or NoSlip; at shared nodes it wins over patches that prescribe a velocity along themselves
     bool stopsBodies = false;       ///< a wall to them (constant/bodies); walls do in any case
     int meshPatch = -1;             ///< index into SimplexMesh::patches
     Velocity velocity = Velocity::Fixed;

@@ -2,7 +2,6 @@
 /// Integrals over the fluid part of a patch face.
 #pragma once
 
-#include "geometry/cover.hpp"
 #include "geometry/cutSimplex.hpp"
 
 namespace flotsam
@@ -14,14 +13,14 @@ struct FaceMoments
 {
     double second[D*D], first[D];
 
-    /// cover: null without solids; nodes: D of the face.
-    FaceMoments(const Cover* cover, const int* nodes)
+    /// solidDistance: from solids at the mesh's nodes (Cover::distance), null without; nodes: D of the face.
+    FaceMoments(const double* solidDistance, const int* nodes)
     {
         double distance[D];
         int nSolid = 0;
         for (int k = 0; k < D; ++k)
         {
-            distance[k] = cover ? cover->distance[nodes[k]] : farDistance;
+            distance[k] = solidDistance ? solidDistance[nodes[k]] : 1;
             nSolid += distance[k] < 0;
         }
         if (nSolid == 0) fill(1);

@@ -10,6 +10,7 @@
 #include "equations/slipNormals.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -65,9 +66,7 @@ void FlowEquation::buildConstraints()
     }
     for (int i = 0; i < mesh_.nNodes; ++i)
         if (isFixed[i]) constraints_.push_back(wholeVelocity(i, dim));
-    for (const BoundaryPatch& p : patches_)
-        for (int i : p.nodes)
-            if (p.isNoSlipWall && isFixed[i]) restingNodes_.push_back(i);
+    findWallRims(isFixed);
     std::vector<int> isEdge(mesh_.nNodes, 0), isBend(mesh_.nNodes, 0);
     for (const auto& [node, normals] : slip)
     {
@@ -89,6 +88,62 @@ void FlowEquation::buildConstraints()
     system_.isPressureFixed.assign(flags.begin(), flags.end());
     isPatchPressureFixed_ = system_.isPressureFixed;
     isPressureWeak_.assign(mesh_.nNodes, 0);
+}
+
+/// Nodes of no-slip walls at which the velocity is prescribed. Patches of `wall` type do not move them: they may move along themselves, but nothing passes.
+void FlowEquation::findWallRims(const std::vector<char>& isFixed)
+{
+    std::vector<char> isResting(mesh_.nNodes, 0);
+    for (const BoundaryPatch& p : patches_)
+        for (int i : p.nodes)
+            if (p.isNoSlipWall && isFixed[i]) isResting[i] = 1;
+    for (int i = 0; i < mesh_.nOwned; ++i)
+        if (isResting[i]) restingNodes_.push_back(i);
+    for (std::size_t p = 0; p < patches_.size(); ++p)
+    {
+        const bool isWall = patches_[p].isNoSlipWall || mesh_.patches[patches_[p].meshPatch].type == "wall";
+        if (patches_[p].velocity == BoundaryPatch::Velocity::Fixed && !isWall) addRimNodes(int(p), isResting);
+    }
+}
+
+void FlowEquation::addRimNodes(int p, const std::vector<char>& isResting)
+{
+    const int dim = mesh_.dim;
+    const MeshPatch& faces = mesh_.patches[patches_[p].meshPatch];
+    const std::vector<int>& nodes = patches_[p].nodes;
+    std::map<int, std::array<double, 3>> area;
+    for (std::size_t k = 0; k < faces.faceNodes.size(); ++k)
+    {
+        const int i = faces.faceNodes[k];
+        if (i >= mesh_.nOwned || !isResting[i]) continue;   // owned nodes see all of their faces
+        double v[3];
+        outwardVector(mesh_, faces, k/dim, v);
+        for (int d = 0; d < dim; ++d) area[i][d] += v[d];
+    }
+    for (const auto& [node, v] : area) rimNodes_.push_back({node, p, int(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin()), v});
+}
+
+/// A node that an inlet shares with a no-slip wall moves with the inlet, and the wall holds the fluid on its faces, as everywhere. Resting nodes would make a layer without
+/// momentum, one element thick, behind the inlet. Nothing passes a lid: there the wall wins.
+void FlowEquation::setRimVelocities(const std::vector<PatchValues>& values, std::vector<double>& x) const
+{
+    constexpr double along = 1e-6;      // across over whole velocity: round-off
+    const int dim = mesh_.dim, B = dim + 1;
+    for (int i : restingNodes_)
+        for (int d = 0; d < dim; ++d) x[std::size_t(i)*B + d] = 0;
+    for (const RimNode& rim : rimNodes_)
+    {
+        const double* u = &values[rim.patch].velocity[std::size_t(rim.position)*dim];
+        double through = 0, area2 = 0, speed2 = 0;
+        for (int d = 0; d < dim; ++d)
+        {
+            through += u[d]*rim.area[d];
+            area2 += rim.area[d]*rim.area[d];
+            speed2 += u[d]*u[d];
+        }
+        if (through*through > along*along*area2*speed2)
+            for (int d = 0; d < dim; ++d) x[std::size_t(rim.node)*B + d] = u[d];
+    }
 }
 
 bool FlowEquation::isOfPocket(int e) const
@@ -182,8 +237,7 @@ void FlowEquation::applyConstraints(const std::vector<PatchValues>& values, std:
             for (int d = 0; d < dim; ++d)
                 x[std::size_t(patch.nodes[k])*B + d] = values[p].velocity[k*dim + d];
     }
-    for (int i : restingNodes_)
-        for (int d = 0; d < dim; ++d) x[std::size_t(i)*B + d] = 0;
+    setRimVelocities(values, x);
     for (std::size_t p = 0; p < patches_.size(); ++p)
     {
         if (patches_[p].pressure == BoundaryPatch::Pressure::Natural) continue;
@@ -220,7 +274,7 @@ void FlowEquation::assembleOpenBoundaries()
         {
             const int* nodes = &faces.faceNodes[f*D];
             if (step_.gas && step_.cover->state[faces.faceElement[f]] == ElementState::Solid) continue;
-            const FaceMoments<D> moments(step_.cover, nodes);
+            const FaceMoments<D> moments(distancesOf(step_.cover), nodes);
             double v[3];
             outwardVector(mesh_, faces, f, v);
             double pressure[D] = {};

@@ -11,6 +11,7 @@
 #include "equations/viscousForce.hpp"
 #include "equations/volumeFlux.hpp"
 
+#include <array>
 #include <map>
 
 namespace flotsam
@@ -137,6 +138,9 @@ private:
     }
     void setMaterials();
     void buildConstraints();
+    void findWallRims(const std::vector<char>& isFixed);
+    void addRimNodes(int p, const std::vector<char>& isResting);
+    void setRimVelocities(const std::vector<PatchValues>& values, std::vector<double>& x) const;
 
     const SimplexMesh& mesh_;
     const NodeGraph& graph_;
@@ -180,7 +184,9 @@ private:
     std::vector<char> isSlipBend_;              // nNodes: where faces of one wall differ in direction
     std::vector<EdgeElement> edgeElements_;     // of patches
     SolidEdges solidEdges_;
-    std::vector<int> restingNodes_;             // of no-slip walls that share them with a patch of prescribed velocity: the wall wins
+    std::vector<int> restingNodes_;             // owned, of no-slip walls that prescribe them or share them with a patch of prescribed velocity
+    struct RimNode { int node, patch, position; std::array<double, 3> area; };  // position: in the patch's nodes; area: of its faces around the node, outwards
+    std::vector<RimNode> rimNodes_;             // of the resting ones: those that a patch may move, see setRimVelocities()
     std::size_t nPatchConstraints_ = 0;         // of the system's, the first ones; then those of shut pockets
     const bool hasInsides_;                     // see algebra/needlessWork.hpp
     std::vector<NodeConstraint> constraints_;   // all local nodes; directions from the walls

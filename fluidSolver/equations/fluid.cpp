@@ -56,7 +56,7 @@ void Fluid::setGeometry(const Cover* cover, const std::vector<Solid>* solids, bo
 
 void Fluid::evaluatePatches(double time)
 {
-    const BoundaryState state{time, state_.u.data(), alphaOfPatches().data()};
+    const BoundaryState state{time, state_.u.data(), alphaOfPatches().data(), distancesOf(cover_)};
     for (std::size_t p = 0; p < patches_.size(); ++p) patches_[p].evaluate(state, values_[p]);
 }
 
@@ -249,6 +249,23 @@ void Fluid::moveInactiveNodes()
     }
 }
 
+/// Inside solids, too, nodes of patches keep the velocity that these prescribe: the transport's next step has it where a solid uncovers an inlet.
+void Fluid::keepInlets()
+{
+    if (!cover_) return;
+    const std::size_t dim = mesh_.dim;
+    for (std::size_t p = 0; p < patches_.size(); ++p)
+    {
+        if (patches_[p].velocity != BoundaryPatch::Velocity::Fixed || patches_[p].isNoSlipWall) continue;
+        for (std::size_t k = 0; k < patches_[p].nodes.size(); ++k)
+        {
+            const std::size_t i = patches_[p].nodes[k];
+            if (cover_->isActiveNode[i]) continue;
+            for (std::size_t d = 0; d < dim; ++d) state_.u[i*dim + d] = state_.uOld[i*dim + d] = values_[p].velocity[k*dim + d];
+        }
+    }
+}
+
 void Fluid::endStep()
 {
     const int dim = mesh_.dim, B = dim + 1;
@@ -262,6 +279,7 @@ void Fluid::endStep()
         state_.p[i] = x_[std::size_t(i)*B + dim];
     }
     moveInactiveNodes();
+    keepInlets();
     equation_.ghostFluxes(x_, ghostFlux_);
     if (fluid_.isTwoPhase && !supg_ && controls_.surfaceTimeOrder == 2) massFluxes_.keep(transport_, state_.alphaOld, state_.alpha);
     state_.dt = time_.dt;

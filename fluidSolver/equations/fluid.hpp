@@ -99,6 +99,7 @@ private:
     void evaluatePatches(double time);
     const std::vector<double>& alphaOfPatches();
     void moveInactiveNodes();
+    void keepInlets();
     void extendPhase();
     void findSurface(const Cover* cover);
     void findDensity(std::vector<double>& rho) const;

@@ -2,6 +2,7 @@
 #include "equations/transportBoundary.hpp"
 
 #include "core/patchFaces.hpp"
+#include "equations/faceMoments.hpp"
 
 #include <algorithm>
 
@@ -13,11 +14,40 @@ TransportBoundary::TransportBoundary(const SimplexMesh& mesh, const NodeGraph& g
 {
 }
 
-/// int N_a u.n over a face with area vector S: S.(u_a + sum_b u_b)/(dim (dim+1)).
-void TransportBoundary::addGivenVelocity(const std::vector<double>& u, const std::vector<BoundaryPatch>& patches,
+/// To nodal_: int N_a u.n over the fluid part of every face, as the continuity rows have it, over the whole of a step half of it with the cover of its start and half with
+/// that of its end.
+template<int D>
+void TransportBoundary::addFaces(const MeshPatch& patch, const std::vector<double>& u, const Cover* cover)
+{
+    const bool isMean = cover && cover->start;
+    const double* distance[2] = {distancesOf(isMean ? cover->start : cover), distancesOf(isMean ? cover->end : cover)};
+    for (std::size_t f = 0; f < patch.faceElement.size(); ++f)
+    {
+        const int* face = &patch.faceNodes[f*D];
+        double area[3], through[D];     // through: S.u per node
+        outwardVector(mesh_, patch, f, area);
+        for (int a = 0; a < D; ++a)
+        {
+            through[a] = 0;
+            for (int d = 0; d < D; ++d)
+            {
+                through[a] += area[d]*u[std::size_t(face[a])*D + d];
+            }
+        }
+        for (int k = 0; k < 1 + isMean; ++k)
+        {
+            const FaceMoments<D> moments(distance[k], face);
+            for (int ab = 0; ab < D*D; ++ab)
+            {
+                nodal_[face[ab/D]] += moments.second[ab]*through[ab%D]/(1 + isMean);
+            }
+        }
+    }
+}
+
+void TransportBoundary::addGivenVelocity(const std::vector<double>& u, const Cover* cover, const std::vector<BoundaryPatch>& patches,
     const std::vector<PatchValues>& values)
 {
-    const int dim = mesh_.dim, n = dim + 1;
     for (std::size_t p = 0; p < patches.size(); ++p)
     {
         if (patches[p].velocity != BoundaryPatch::Velocity::Fixed)
@@ -25,26 +55,7 @@ void TransportBoundary::addGivenVelocity(const std::vector<double>& u, const std
             continue;
         }
         const MeshPatch& patch = mesh_.patches[patches[p].meshPatch];
-        for (std::size_t f = 0; f < patch.faceElement.size(); ++f)
-        {
-            const int* face = &patch.faceNodes[f*dim];
-            double area[3];
-            outwardVector(mesh_, patch, f, area);
-            double through[3], sum = 0;     // S.u per node
-            for (int a = 0; a < dim; ++a)
-            {
-                through[a] = 0;
-                for (int d = 0; d < dim; ++d)
-                {
-                    through[a] += area[d]*u[std::size_t(face[a])*dim + d];
-                }
-                sum += through[a];
-            }
-            for (int a = 0; a < dim; ++a)
-            {
-                nodal_[face[a]] += (through[a] + sum)/(dim*n);
-            }
-        }
+        mesh_.dim == 2 ? addFaces<2>(patch, u, cover) : addFaces<3>(patch, u, cover);
         const bool isInflow = patches[p].phase == BoundaryPatch::Phase::Inflow;
         for (std::size_t k = 0; k < patches[p].nodes.size(); ++k)
         {
@@ -166,7 +177,7 @@ void TransportBoundary::evaluate(const std::vector<double>& u, const std::vector
     const std::vector<char>& isPressureFixed, const std::vector<PairFlux>& pairFlux)
 {
     fluxes_.clear();
-    addGivenVelocity(u, patches, values);
+    addGivenVelocity(u, cover, patches, values);
     markClosingNodes(patches, values, isPressureFixed);
     close(u, fineScale, cover, pairFlux);
 }

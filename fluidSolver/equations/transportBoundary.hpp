@@ -21,7 +21,7 @@ class TransportBoundary
 public:
     TransportBoundary(const SimplexMesh& mesh, const NodeGraph& graph, const VolumeFlux& volumeFlux);
 
-    /// Patches with given velocity: int N_i u.n over their faces (slip: none). Nodes of open patches and nodes with fixed
+    /// Patches with given velocity: int N_i u.n over the fluid part of their faces (slip: none). Nodes of open patches and nodes with fixed
     /// pressure, where the solver has no continuity row: what closes the balance of the dual cell.
     void evaluate(const std::vector<double>& u, const std::vector<double>& fineScale, const Cover* cover,
         const std::vector<BoundaryPatch>& patches, const std::vector<PatchValues>& values,
@@ -30,7 +30,8 @@ public:
     const std::vector<BoundaryFlux>& fluxes() const { return fluxes_; }
 
 private:
-    void addGivenVelocity(const std::vector<double>& u, const std::vector<BoundaryPatch>& patches, const std::vector<PatchValues>& values);
+    template<int D> void addFaces(const MeshPatch& patch, const std::vector<double>& u, const Cover* cover);
+    void addGivenVelocity(const std::vector<double>& u, const Cover* cover, const std::vector<BoundaryPatch>& patches, const std::vector<PatchValues>& values);
     void markClosingNodes(const std::vector<BoundaryPatch>& patches, const std::vector<PatchValues>& values, const std::vector<char>& isPressureFixed);
     void close(const std::vector<double>& u, const std::vector<double>& fineScale, const Cover* cover, const std::vector<PairFlux>& pairFlux);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam/boundaryConditions.H"
 #include "foam/dictionaryChecks.H"
+#include "foam/faceValues.H"
 
 #include "equations/materials.hpp"
 
@@ -103,7 +104,7 @@ VelocityCondition noSlip(const ConditionInput& in)
 
 VelocityCondition fixedValueVelocity(const ConditionInput& in)
 {
-    return fixedVelocity(constantValues(averageToNodes(in.patch, in.adapter, in.halo, in.nodes->nodes, faceVectors(in, "value"), in.adapter.mesh.dim)));
+    return fixedVelocity(constantValues(velocityAtNodes(in.patch, in.adapter, in.halo, *in.nodes, faceVectors(in, "value"))));
 }
 
 VelocityCondition uniformVelocity(const ConditionInput& in)
@@ -119,23 +120,22 @@ VelocityCondition uniformVelocity(const ConditionInput& in)
 VelocityCondition slip(const ConditionInput&) { return {BoundaryPatch::Velocity::Slip, {}}; }
 VelocityCondition open(const ConditionInput&) { return {BoundaryPatch::Velocity::Open, {}}; }
 
-/// Normal inflow Q split over the nodes as `weight`; the P1 flux through the patch is exactly Q.
+/// Normal inflow `flow` through what solids leave of the patch, split over the nodes as `weight`; of the P1 flux `share` counts, as it does for the transport.
 void distributeFlow(const PatchNodes& patch, const Halo& halo, double flow, const std::vector<double>& weight, const std::vector<double>& share,
-    const std::string& name, std::vector<double>& out)
+    const double* solidDistance, const std::string& name, std::vector<double>& out)
 {
     const int dim = patch.mesh->dim;
-    std::vector<double> counted(weight.size());
-    for (std::size_t i = 0; i < weight.size(); ++i) counted[i] = weight[i]*share[i];
-    const double outflow = halo.sum(patch.outflow(counted));
+    std::vector<double> outwards;
+    for (std::size_t k = 0; k < patch.normal.size(); ++k) outwards.push_back(weight[k/dim]*patch.normal[k]);
+    const double outflow = halo.sum(patch.outflow(outwards, share, solidDistance));
     const double area = halo.sum(patch.area());
-    out.assign(weight.size()*dim, 0.0);
+    out.assign(outwards.size(), 0.0);
     if (flow == 0) return;
     if (outflow < 1e-9*area)
         FatalErrorInFunction << "Patch " << name.c_str() << ": a flow rate of " << flow << " m^3/s is given but there is no part of the patch it could "
-            << "pass: all nodes belong to walls or hold no liquid." << Foam::nl
+            << "pass: its nodes hold no liquid, or solids cover it." << Foam::nl
             << "    Set the phase field at the patch to 1 below the water level (setFields), or use flowRateInletVelocity." << Foam::exit(Foam::FatalError);
-    for (std::size_t i = 0; i < weight.size(); ++i)
-        for (int d = 0; d < dim; ++d) out[i*dim + d] = -flow/outflow*weight[i]*patch.normal[i*dim + d];
+    for (std::size_t k = 0; k < out.size(); ++k) out[k] = -flow/outflow*outwards[k];
 }
 
 VelocityCondition flowRateVelocity(const ConditionInput& in)
@@ -144,11 +144,9 @@ VelocityCondition flowRateVelocity(const ConditionInput& in)
         failIn(in.dict, "massFlowRate is not available: give volumetricFlowRate [m^3/s] (mass flow rate over density).");
     if (in.dict.getOrDefault<bool>("extrapolateProfile", false))
         failIn(in.dict, "extrapolateProfile yes is not available: the velocity is uniform over the patch. Remove the entry.");
-    std::vector<double> weight;
-    for (double wall : in.wallNode) weight.push_back(1 - wall);
-    return fixedVelocity([f = timeFunction<scalar>(in.dict, "volumetricFlowRate"), n = in.nodes, &halo = in.halo, weight,
-        all = std::vector<double>(weight.size(), 1.0), name = in.patch.name()](const BoundaryState& state, std::vector<double>& out)
-        { distributeFlow(*n, halo, f->value(state.time), weight, all, name, out); });
+    return fixedVelocity([f = timeFunction<scalar>(in.dict, "volumetricFlowRate"), n = in.nodes, &halo = in.halo,
+        all = std::vector<double>(in.nodes->nodes.size(), 1.0), name = in.patch.name()](const BoundaryState& state, std::vector<double>& out)
+        { distributeFlow(*n, halo, f->value(state.time), all, all, state.solidDistance, name, out); });
 }
 
 VelocityCondition variableHeightVelocity(const ConditionInput& in)
@@ -157,16 +155,12 @@ VelocityCondition variableHeightVelocity(const ConditionInput& in)
     if (in.controls.alphaName.empty()) failIn(in.dict, "variableHeightFlowRateInletVelocity needs two fluids; use flowRateInletVelocity.");
     if (alpha != in.controls.alphaName)
         failIn(in.dict, text("Entry 'alpha' is ", alpha, "; the phase field of this case is ", in.controls.alphaName, "."));
-    return fixedVelocity([f = timeFunction<scalar>(in.dict, "flowRate"), n = in.nodes, &halo = in.halo, wall = in.wallNode, name = in.patch.name()](
+    return fixedVelocity([f = timeFunction<scalar>(in.dict, "flowRate"), n = in.nodes, &halo = in.halo, name = in.patch.name()](
         const BoundaryState& state, std::vector<double>& out)
     {
-        std::vector<double> weight, liquid; // the surface's nodes let gas in as well: what counts is the liquid
-        for (std::size_t i = 0; i < wall.size(); ++i)
-        {
-            liquid.push_back(std::clamp(state.alpha[n->nodes[i]], 0.0, 1.0));
-            weight.push_back((1 - wall[i])*liquid.back());
-        }
-        distributeFlow(*n, halo, f->value(state.time), weight, liquid, name, out);
+        std::vector<double> liquid; // the surface's nodes let gas in as well: what counts is the liquid
+        for (int node : n->nodes) liquid.push_back(std::clamp(state.alpha[node], 0.0, 1.0));
+        distributeFlow(*n, halo, f->value(state.time), liquid, liquid, state.solidDistance, name, out);
     });
 }
 

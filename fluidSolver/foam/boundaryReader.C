@@ -62,14 +62,6 @@ double pressureScale(const RawField& field, const CaseControls& controls)
         controls.fluid.isTwoPhase ? "." : " or [0 2 -2 0 0 0 0] (kinematic, single fluid)."));
 }
 
-/// 1 at the nodes of a patch that a no-slip wall holds.
-std::vector<double> heldByWalls(const PatchNodes& patch, const std::vector<int>& isWallNode)
-{
-    std::vector<double> held;
-    for (int node : patch.nodes) held.push_back(isWallNode[node]);
-    return held;
-}
-
 void checkCombination(const BoundaryPatch& patch, const Foam::dictionary& velocity, const Foam::dictionary& pressure, const std::string& pressureName)
 {
     if (patch.velocity == BoundaryPatch::Velocity::Open || patch.pressure == BoundaryPatch::Pressure::Natural) return;
@@ -103,19 +95,10 @@ std::vector<PatchSource> patchSources(const Foam::polyMesh& mesh, const MeshAdap
     return sources;
 }
 
-std::vector<int> wallNodes(const std::vector<PatchSource>& sources, const RawField& velocity, const MeshAdapter& adapter, const Halo& halo,
-    std::vector<char>& isWallPatch)
+/// Ranks without a face of the patch must not say no.
+bool isNoSlipWallAnywhere(const PatchSource& source, const RawField& velocity, const Halo& halo)
 {
-    std::vector<int> isWallNode(adapter.mesh.nNodes, 0);
-    for (const auto& source : sources)
-    {
-        // ranks without a face of the patch must not say no
-        const bool isOther = halo.any(!isNoSlipWall(velocity.patch(*source.patch), *source.patch));
-        isWallPatch.push_back(!isOther);
-        if (isOther) continue;
-        for (int node : source.nodes->nodes) isWallNode[node] = 1;
-    }
-    return isWallNode;
+    return !halo.any(!isNoSlipWall(velocity.patch(*source.patch), *source.patch));
 }
 
 /// startTime may name a time that is not there.
@@ -176,27 +159,24 @@ std::vector<BoundaryPatch> readBoundary(const Foam::polyMesh& mesh, const MeshAd
     const double scale = pressureScale(pressure, controls);
 
     const auto sources = patchSources(mesh, adapter, halo);
-    std::vector<char> isWallPatch;
-    const auto isWallNode = wallNodes(sources, velocity, adapter, halo, isWallPatch);
-
     std::vector<BoundaryPatch> result;
     for (std::size_t i = 0; i < sources.size(); ++i)
     {
         const Foam::polyPatch& patch = *sources[i].patch;
         const auto input = [&](const RawField& field, const std::string& name, double factor)
         {
-            return ConditionInput{field.patch(patch), patch, adapter, halo, controls, sources[i].nodes,
-                heldByWalls(*sources[i].nodes, isWallNode), name, factor};
+            return ConditionInput{field.patch(patch), patch, adapter, halo, controls, sources[i].nodes, name, factor};
         };
+        const bool isNoSlip = isNoSlipWallAnywhere(sources[i], velocity, halo);   // before values are read
         const auto u = makeVelocityCondition(input(velocity, "U", 1));
         const auto p = makePressureCondition(input(pressure, pressureName, scale));
         const auto a = phase ? makePhaseCondition(input(*phase, controls.alphaName, 1)) : PhaseCondition();
 
         BoundaryPatch out;
         out.name = patch.name();
-        out.isNoSlipWall = isWallPatch[i];
+        out.isNoSlipWall = isNoSlip;
         out.meshPatch = static_cast<int>(i);
-        out.velocity = isWallPatch[i] && controls.numerics.wallGamma > 0 ? BoundaryPatch::Velocity::NoSlip : u.kind;
+        out.velocity = isNoSlip && controls.numerics.wallGamma > 0 ? BoundaryPatch::Velocity::NoSlip : u.kind;
         out.pressure = p.kind;
         out.phase = a.kind;
         out.nodes = sources[i].nodes->nodes;

@@ -2,9 +2,7 @@
 #include "foam/patchNodes.H"
 
 #include "core/patchFaces.hpp"
-
-#include "SubField.H"
-#include "polyPatch.H"
+#include "equations/faceMoments.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -50,6 +48,20 @@ std::vector<double> normalsOf(const SimplexMesh& mesh, const Halo& halo, const M
     return normal;
 }
 
+/// int share u.n over the fluid part of face f.
+template<int D>
+double faceOutflow(const PatchNodes& patch, std::size_t f, const std::vector<double>& velocity, const std::vector<double>& share, const double* solidDistance)
+{
+    const int* corners = &patch.faceNodes[f*D];
+    int nodes[D];
+    for (int k = 0; k < D; ++k) nodes[k] = patch.nodes[corners[k]];
+    const FaceMoments<D> moments(solidDistance, nodes);
+    double sum = 0;
+    for (int ab = 0; ab < D*D; ++ab)
+        for (int d = 0; d < D; ++d) sum += share[corners[ab/D]]*moments.second[ab]*velocity[std::size_t(corners[ab%D])*D + d]*patch.faceArea[f*D + d];
+    return sum;
+}
+
 } // namespace
 
 PatchNodes makePatchNodes(const SimplexMesh& mesh, const Halo& halo, const MeshPatch& patch)
@@ -73,16 +85,23 @@ PatchNodes makePatchNodes(const SimplexMesh& mesh, const Halo& halo, const MeshP
     return result;
 }
 
-double PatchNodes::outflow(const std::vector<double>& weight) const
+double PatchNodes::outflow(const std::vector<double>& velocity) const
 {
     const int dim = mesh->dim;
     double sum = 0;
     for (std::size_t k = 0; k < faceNodes.size(); ++k)
     {
-        const double* a = &faceArea[k/dim*dim];
-        const double* n = &normal[static_cast<std::size_t>(faceNodes[k])*dim];
-        for (int d = 0; d < dim; ++d) sum += weight[faceNodes[k]]*n[d]*a[d]/dim;
+        const double *a = &faceArea[k/dim*dim], *u = &velocity[static_cast<std::size_t>(faceNodes[k])*dim];
+        for (int d = 0; d < dim; ++d) sum += u[d]*a[d]/dim;
     }
+    return sum;
+}
+
+double PatchNodes::outflow(const std::vector<double>& velocity, const std::vector<double>& share, const double* solidDistance) const
+{
+    double sum = 0;
+    for (std::size_t f = 0; f*mesh->dim < faceNodes.size(); ++f)
+        sum += mesh->dim == 2 ? faceOutflow<2>(*this, f, velocity, share, solidDistance) : faceOutflow<3>(*this, f, velocity, share, solidDistance);
     return sum;
 }
 
@@ -97,39 +116,6 @@ double PatchNodes::area() const
         sum += std::sqrt(square);
     }
     return sum;
-}
-
-std::vector<double> averageToNodes(const Foam::polyPatch& patch, const MeshAdapter& adapter, const Halo& halo,
-    const std::vector<int>& nodes, const std::vector<double>& faceValues, int width)
-{
-    // deviations from one value, the same on every rank, so that uniform values come back unchanged
-    std::vector<double> reference(width);
-    for (int k = 0; k < width; ++k)
-        reference[k] = halo.max(patch.size() ? faceValues[k] : -1e300);
-
-    const SimplexMesh& mesh = adapter.mesh;
-    std::vector<double> sum(static_cast<std::size_t>(mesh.nNodes)*(width + 1), 0.0);
-    for (Foam::label f = 0; f < patch.size(); ++f)
-    {
-        const double area = Foam::mag(patch.faceAreas()[f]);
-        for (const Foam::label point : patch[f])
-        {
-            double* s = &sum[static_cast<std::size_t>(adapter.pointNode[point])*(width + 1)];
-            for (int k = 0; k < width; ++k) s[k] += area*(faceValues[f*width + k] - reference[k]);
-            s[width] += area;
-        }
-    }
-    halo.sumToOwners(sum, width + 1);
-    halo.update(sum, width + 1);
-
-    std::vector<double> result;
-    result.reserve(nodes.size()*width);
-    for (int i : nodes)
-    {
-        const double* s = &sum[static_cast<std::size_t>(i)*(width + 1)];
-        for (int k = 0; k < width; ++k) result.push_back(reference[k] + (s[width] > 0 ? s[k]/s[width] : 0));
-    }
-    return result;
 }
 
 } // namespace flotsam

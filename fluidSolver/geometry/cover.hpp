@@ -80,8 +80,12 @@ struct Cover
     std::vector<FilmNode> filmNodes;    ///< on walls, a loose solid less than an element over them: see WallFilm
     std::vector<double> solidVolume;    ///< per solid: sum over owned elements of the part it cuts out, all ranks [m^dim]
     std::vector<double> solidArea;      ///< per solid: wetted surface of the cut, all ranks [m^(dim-1)]
+    const Cover *start = nullptr, *end = nullptr;   ///< of a mean (setMeanCover): what it is the mean of
     long nSharedElements = 0;           ///< cut elements with nodes in two different solids (gap below the mesh), owned, all ranks
 };
+
+/// nNodes; null without solids.
+inline const double* distancesOf(const Cover* cover) { return cover ? cover->distance.data() : nullptr; }
 
 /// Of element e [m^dim]. cover null: no solids.
 inline double fluidVolume(const SimplexMesh& mesh, const Cover* cover, int e)

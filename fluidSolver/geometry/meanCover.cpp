@@ -44,6 +44,7 @@ void addHalfFacets(const Cover& cover, int e, std::vector<CutFacet>& facets)
 
 void keepForMean(const Cover& cover, Cover& kept)
 {
+    kept.distance = cover.distance;
     kept.state = cover.state;
     kept.cutIndex = cover.cutIndex;
     kept.cuts = cover.cuts;
@@ -53,6 +54,8 @@ void keepForMean(const Cover& cover, Cover& kept)
 
 void setMeanCover(const SimplexMesh& mesh, const Cover& start, const Cover& end, Cover& mean)
 {
+    mean.start = &start;
+    mean.end = &end;
     mean.state = end.state;
     mean.isActiveNode = start.isActiveNode; // the phase field that is moved has values of the fluid there
     mean.cutIndex.assign(mesh.nElements, -1);
