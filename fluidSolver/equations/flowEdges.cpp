@@ -127,6 +127,25 @@ private:
     }
 };
 
+/// Added to what addElement() has of the nodes' velocities: the difference that the part along the wall makes.
+template<int D>
+void addRows(const EdgeTerms<D>& terms, const SimplexMesh& mesh, const NodeGraph& graph, FlowSystem& system)
+{
+    constexpr int N = D + 1, B = D + 1;
+    const int e = terms.edge.element, *nodes = &mesh.elements[std::size_t(e)*N];
+    for (int a = 0; a < N && e < mesh.nInnerElements; ++a)
+    {
+        if (nodes[a] >= mesh.nOwned) continue;
+        for (int k = 0; k < D; ++k) system.rhs[std::size_t(nodes[a])*B + k] -= terms.force[a][k];
+        for (int b = 0; b < N; ++b)
+        {
+            double m[B*B];
+            terms.block(a, b, m);
+            system.matrix.add<D>(graph.slot(nodes[a], (std::size_t(e)*N + a)*N + b), m);
+        }
+    }
+}
+
 } // namespace
 
 void FlowEquation::findEdgeElements(const std::map<int, SlipNormals>& slip)
@@ -170,26 +189,11 @@ void FlowEquation::findEdgeElements(const std::map<int, SlipNormals>& slip)
     }
 }
 
-/// Added to what addElement() has of the nodes' velocities: the difference that the part along the wall makes.
 template<int D>
 void FlowEquation::addEdgeElement(const EdgeElement& edge)
 {
-    constexpr int N = D + 1, B = D + 1;
-    const int* nodes = &mesh_.elements[std::size_t(edge.element)*N];
     ElementData<D> data;
-    if (!loadElementData<D>(edge.element, mesh_, step_, fluid_, controls_, nodal_, data)) return;
-    const EdgeTerms<D> terms(data, edge);
-    for (int a = 0; a < N; ++a)
-    {
-        if (nodes[a] >= mesh_.nOwned) continue;
-        for (int k = 0; k < D; ++k) system_.rhs[std::size_t(nodes[a])*B + k] -= terms.force[a][k];
-        for (int b = 0; b < N; ++b)
-        {
-            double m[B*B];
-            terms.block(a, b, m);
-            system_.matrix.add<D>(graph_.slot(nodes[a], (std::size_t(edge.element)*N + a)*N + b), m);
-        }
-    }
+    if (loadElementData<D>(edge.element, mesh_, step_, fluid_, controls_, nodal_, data)) addRows(EdgeTerms<D>(data, edge), mesh_, graph_, system_);
 }
 
 /// The same at a structure's edge: the blocks are of the nodal jumps, the structure's row and column follow.
@@ -197,12 +201,12 @@ template<int D>
 void FlowEquation::addSolidEdge(const SolidEdges::Element& edge, const Turning<D>& turning, SolidCoupling& coupling)
 {
     constexpr int N = D + 1, B = D + 1, nDof = RigidArm<D>::nDof;
-    addEdgeElement<D>(edge);
     ElementData<D> data;
     if (!loadElementData<D>(edge.element, mesh_, step_, fluid_, controls_, nodal_, data)) return;
     const int* nodes = &mesh_.elements[std::size_t(edge.element)*N];
     const Solid& solid = (*step_.solids)[edge.solid];
     const EdgeTerms<D> terms(data, edge);
+    addRows(terms, mesh_, graph_, system_);
     const bool isOwned = mesh_.isOwnedElement[edge.element];
     RigidArm<D> arm[N];
     RigidBlocks<D> rigid;
@@ -234,8 +238,7 @@ void FlowEquation::addSolidEdge(const SolidEdges::Element& edge, const Turning<D
 template<int D>
 void FlowEquation::assembleEdges()
 {
-    for (const EdgeElement& edge : edgeElements_)
-        if (edge.element < mesh_.nInnerElements) addEdgeElement<D>(edge);
+    for (const EdgeElement& edge : edgeElements_) addEdgeElement<D>(edge);
 }
 
 /// From u', which convects with the nodes' velocities: their part across the walls, mean over the element's fluid part. Of structures relative to their motion.

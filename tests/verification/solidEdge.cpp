@@ -130,7 +130,7 @@ double contraction(double side)
 TEST_CASE("a jet that slides along a structure leaves its edge straight on, wherever that lies in the elements")
 {
     for (const Solid::Wall wall : {Solid::Wall::Slip, Solid::Wall::NoSlip})
-        for (const double side : {0.1, 0.3, 0.5, 0.7, 0.9})
+        for (const double side : {0.1, 0.5, 0.9})
         {
             const Jet jet(side, wall);
             std::printf("%s, edge %.1f elements from a node: drag %.4f, lift %.4f of the jet's momentum, slowest %.3f, deflection %.4f\n", wall == Solid::Wall::Slip ? "slip" : "no-slip", side,
