@@ -80,24 +80,6 @@ double shareToRest(const Vector& mean, const Vector& change)
     return along > all ? all/along : 1;
 }
 
-/// Makes the P1 discharge `flow`, by a change along the normals in proportion to what passes: a node at rest stays at rest.
-void setDischarge(const PatchNodes& nodes, const Halo& halo, double flow, std::vector<double>& velocity)
-{
-    constexpr double roundOff = 1e-13;
-    const int dim = nodes.mesh->dim;
-    std::vector<double> passing;
-    for (std::size_t k = 0; k < nodes.nodes.size(); ++k)
-    {
-        const double through = std::abs(at(velocity, int(k), dim).dot(at(nodes.normal, int(k), dim)));
-        for (int d = 0; d < dim; ++d) passing.push_back(through*nodes.normal[k*dim + d]);
-    }
-    double sums[2] = {nodes.outflow(velocity), nodes.outflow(passing)};
-    halo.sum(sums, 2);
-    const double missing = flow - sums[0];
-    if (std::abs(missing) <= roundOff*sums[1]) return;  // uniform values stay as they are
-    for (std::size_t k = 0; k < velocity.size(); ++k) velocity[k] += missing/sums[1]*passing[k];
-}
-
 } // namespace
 
 std::vector<double> averageToNodes(const Foam::polyPatch& patch, const MeshAdapter& adapter, const Halo& halo,
@@ -158,10 +140,6 @@ std::vector<double> velocityAtNodes(const Foam::polyPatch& patch, const MeshAdap
 
     std::vector<double> velocity = mean;
     for (std::size_t k = 0; k < velocity.size(); ++k) velocity[k] += change[static_cast<std::size_t>(nodes.nodes[k/dim])*dim + k%dim];
-    const std::vector<double> areas = inPlane(mesh, patch.faceAreas());
-    double flow = 0;
-    for (std::size_t k = 0; k < areas.size(); ++k) flow += faceVelocities[k]*areas[k];
-    setDischarge(nodes, halo, halo.sum(flow), velocity);
     return velocity;
 }
 
