@@ -58,11 +58,11 @@ SceneCounts countScene(const BodiesInput& input)
     SceneCounts counts;
     for (const StructureDefinition& s : input.structures) ++(s.motion ? counts.movingStructures : counts.fixedStructures);
     counts.bodies = int(input.bodies.size());
+    counts.thinnestBody = thinnestBody(input);
     for (const BodyDefinition& b : input.bodies)
     {
         counts.bodiesToCome += b.entersAtRelease;
         counts.demSpheres += long(b.spheres.size());
-        if (counts.thinnestBody == 0 || b.thinnest < counts.thinnestBody) counts.thinnestBody = b.thinnest;
     }
     counts.walls = int(input.walls.size());
     return counts;

@@ -246,6 +246,13 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
     return input;
 }
 
+double thinnestBody(const BodiesInput& input)
+{
+    double result = 0;
+    for (const BodyDefinition& body : input.bodies) result = result == 0 ? body.thinnest : std::min(result, body.thinnest);
+    return result;
+}
+
 BodiesInput readBodies(const Foam::polyMesh& mesh, const SimplexMesh& simplexMesh, const Halo& halo, const Vec3& gravity)
 {
     warnMisnamed(mesh.time());

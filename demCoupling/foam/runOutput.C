@@ -92,10 +92,8 @@ RunOutput::RunOutput(const Foam::Time& runTime, const SimplexMesh& mesh, const H
 :   runTime_(runTime), mesh_(mesh), halo_(halo), timers_(timers), members_(makeMembers(bodies)),
     descriptions_(describe(bodies)),
     files_(runTime, mesh, halo), log_(timers, runTime.value(), runTime.endTime().value()), forces_(structureNames(bodies)),
-    nStructures_(int(bodies.structures.size())), firstStart_(runTime.value())
-{
-    for (const BodyDefinition& b : bodies.bodies) thinnestBody_ = thinnestBody_ == 0 ? b.thinnest : std::min(thinnestBody_, b.thinnest);
-}
+    nStructures_(int(bodies.structures.size())), firstStart_(runTime.value()), thinnestBody_(thinnestBody(bodies))
+{}
 
 /// flotsamFoam wrote this time, but its state was left behind.
 void RunOutput::warnAnew() const

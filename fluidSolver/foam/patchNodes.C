@@ -85,18 +85,6 @@ PatchNodes makePatchNodes(const SimplexMesh& mesh, const Halo& halo, const MeshP
     return result;
 }
 
-double PatchNodes::outflow(const std::vector<double>& velocity) const
-{
-    const int dim = mesh->dim;
-    double sum = 0;
-    for (std::size_t k = 0; k < faceNodes.size(); ++k)
-    {
-        const double *a = &faceArea[k/dim*dim], *u = &velocity[static_cast<std::size_t>(faceNodes[k])*dim];
-        for (int d = 0; d < dim; ++d) sum += u[d]*a[d]/dim;
-    }
-    return sum;
-}
-
 double PatchNodes::outflow(const std::vector<double>& velocity, const std::vector<double>& share, const double* solidDistance) const
 {
     double sum = 0;

@@ -145,7 +145,7 @@ struct FaceScene : Scene
             for (int d = 0; d < adapter.mesh.dim; ++d) values.push_back(profile(x)[adapter.mesh.axes[d]]);
         return velocityAtNodes(faces, adapter, halo, nodes, values);
     }
-    double outflow(const std::vector<double>& velocity) const { return halo.sum(nodes.outflow(velocity)); }
+    double outflow(const std::vector<double>& velocity) const { return halo.sum(nodes.outflow(velocity, std::vector<double>(nodes.nodes.size(), 1.0), nullptr)); }
     double facesOutflow(const Profile& profile) const
     {
         double sum = 0;
