@@ -15,6 +15,7 @@
 #include "foam/writeTimes.H"
 
 #include "algebra/needlessWork.hpp"
+#include "core/nextTimeStep.hpp"
 #include "io/stopSignal.hpp"
 
 #include "argList.H"
@@ -29,7 +30,6 @@ namespace flotsam
 namespace
 {
 
-constexpr double growthLimit = 1.2;     // of the time step from step to step
 constexpr double retryFactor = 0.5;     // of the time step after a rejected step
 constexpr int maxRetries = 8;
 
@@ -40,25 +40,13 @@ CourantNumbers courantRates(const CoupledStep& step)
     return {flow.mean, flow.largest, step.bodyCourantRate()};
 }
 
-/// Next time step and the word for what limits it.
-std::pair<double, std::string> nextTimeStep(const CourantNumbers& rates, const TimeControls& time, double last)
-{
-    double dt = growthLimit*last;
-    std::string limit = "growth";
-    auto cap = [&](double value, const char* word) { if (value < dt) { dt = value; limit = word; } };
-    if (!time.adjustTimeStep) return {time.deltaT, "fixed"};
-    if (rates.largest > 0) cap(time.maxCo/rates.largest, "flow");
-    if (rates.bodies > 0) cap(time.maxBodyCo/rates.bodies, "body");
-    cap(time.maxDeltaT, "cap");
-    return {dt, limit};
-}
-
 SceneCounts countScene(const BodiesInput& input)
 {
     SceneCounts counts;
     for (const StructureDefinition& s : input.structures) ++(s.motion ? counts.movingStructures : counts.fixedStructures);
     counts.bodies = int(input.bodies.size());
     counts.thinnestBody = thinnestBody(input);
+    counts.thinnestLinearBody = thinnestLinearBody(input);
     for (const BodyDefinition& b : input.bodies)
     {
         counts.bodiesToCome += b.entersAtRelease;
@@ -261,12 +249,12 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     if (!runTime.run())
         Foam::Info<< "Nothing to do: the run is at " << runTime.timeName() << " s, endTime of system/controlDict is " << runTime.endTime().value() << " s" << Foam::endl;
     bool isComplete = true;
-    double dt = output.timeStep() > 0 ? output.timeStep() : std::min(runTime.deltaTValue(), time.maxDeltaT)/growthLimit;
+    double dt = output.timeStep() > 0 ? output.timeStep() : std::min(runTime.deltaTValue(), time.maxDeltaT)/timeStepGrowth;
     while (runTime.run())
     {
         updateTimeControls(runTime, time);
         const CourantNumbers rates = courantRates(step);
-        auto [wanted, limit] = nextTimeStep(rates, time, dt);
+        auto [wanted, limit] = nextTimeStep(rates.largest, rates.bodies, time, dt);
         checkTimeStep(wanted, time, step);
         double used = writeTimes.setStep(wanted);
         if (used < 0.999*wanted) limit = "write";

@@ -13,3 +13,4 @@ target_compile_definitions(test_meshAdapter PRIVATE FLOTSAM_MESH_CASES="${meshCa
 add_test(NAME parallel.meshCases COMMAND bash ${CMAKE_CURRENT_SOURCE_DIR}/support/makeMeshCases.sh ${meshCases})
 set_tests_properties(parallel.meshCases PROPERTIES LABELS parallel FIXTURES_SETUP meshCases ENVIRONMENT "${FLOTSAM_TEST_ENVIRONMENT}")
 set_tests_properties(parallel.meshAdapter parallel.meshAdapter.np2 parallel.meshAdapter.np4 PROPERTIES FIXTURES_REQUIRED meshCases)
+flotsam_test(nextTimeStep unit SOURCES unit/nextTimeStep.cpp LIBRARIES flotsam_core)

@@ -246,11 +246,36 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
     return input;
 }
 
-double thinnestBody(const BodiesInput& input)
+namespace
+{
+
+bool isCutLinearly(const BodyDefinition& body)
+{
+    if (body.shape->hasPlaneFaces()) return false;
+    const Vec3 axis = body.pose.orientation*body.shape->symmetry().axis;
+    return roundThickness(*body.shape) == 0 || (body.isPlanar && std::abs(axis[body.planeAxis]) < 1 - 1e-9);
+}
+
+/// Smallest extent of those that count, 0: none does.
+template <class Counts>
+double thinnestOf(const BodiesInput& input, Counts counts)
 {
     double result = 0;
-    for (const BodyDefinition& body : input.bodies) result = result == 0 ? body.thinnest : std::min(result, body.thinnest);
+    for (const BodyDefinition& body : input.bodies)
+        if (counts(body)) result = result == 0 ? body.thinnest : std::min(result, body.thinnest);
     return result;
+}
+
+} // namespace
+
+double thinnestBody(const BodiesInput& input)
+{
+    return thinnestOf(input, [](const BodyDefinition&) { return true; });
+}
+
+double thinnestLinearBody(const BodiesInput& input)
+{
+    return thinnestOf(input, isCutLinearly);
 }
 
 BodiesInput readBodies(const Foam::polyMesh& mesh, const SimplexMesh& simplexMesh, const Halo& halo, const Vec3& gravity)

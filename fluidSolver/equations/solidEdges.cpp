@@ -14,7 +14,7 @@ namespace
 bool hasEdges(const Solid& solid)
 {
     double distance[maxFaces];
-    return solid.kind != Solid::Kind::Free && solid.faceDistances(solid.pose.position, distance) > 1;
+    return solid.kind != Solid::Kind::Free && !solid.isThin && solid.faceDistances(solid.pose.position, distance) > 1;
 }
 
 /// Of the solid's faces the one that a facet group lies on, as a bit; 0: it cuts an edge off and lies on none.

@@ -84,6 +84,7 @@ CoverBuilder::CoverBuilder(const SimplexMesh& mesh, const NodeGraph& graph, cons
         lower_[d] = -halo.max(lower_[d]);
         upper_[d] = halo.max(upper_[d]);
     }
+    longest_ = halo.max(mesh.h.empty() ? 0 : *std::max_element(mesh.h.begin(), mesh.h.end()));
 }
 
 const Cover& CoverBuilder::build(const std::vector<Solid>& solids)
@@ -95,6 +96,7 @@ const Cover& CoverBuilder::build(const std::vector<Solid>& solids)
 
 const Cover& CoverBuilder::buildExactVolume(std::vector<Solid>& solids)
 {
+    chooseThin(solids);
     const bool isNew = !sameFixedSolids(solids);
     if (isNew) correctFixedOffsets(solids);
     if (isNew || isNeedless_) cutFixedSolids(solids);
@@ -171,6 +173,8 @@ void CoverBuilder::cutFixedSolids(const std::vector<Solid>& solids)
     c.isActiveNode.assign(mesh_.nNodes, 1);
     touchedNodes_.clear();
     touchedElements_.clear();
+    for (int e : thinElements_) thinElement_[e] = ThinElement::None;
+    thinElements_.clear();
     isNearFixedCut_.assign(mesh_.nNodes, 0);
     face_.assign(mesh_.nNodes, 0);
     ++mark_;
@@ -227,6 +231,7 @@ void CoverBuilder::restoreFixedCover()
 const Cover& CoverBuilder::cutMovingSolids(const std::vector<Solid>& solids)
 {
     restoreFixedCover();
+    findThinParts(solids);
     ++mark_;
     for (std::size_t s = 0; s < solids.size(); ++s)
         if (solids[s].kind != Solid::Kind::Fixed)
@@ -234,6 +239,7 @@ const Cover& CoverBuilder::cutMovingSolids(const std::vector<Solid>& solids)
             applySamples(cover_, solids, static_cast<int>(s), samples_[s]);
             addElementsOf(cover_, solids, static_cast<int>(s), samples_[s]);
         }
+    addThinElements(cover_, solids);
     addClosedFaces();
     copyFixedCuts();
     nodeFaces_.clear();

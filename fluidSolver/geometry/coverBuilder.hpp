@@ -16,6 +16,8 @@ namespace flotsam
 
 /// Largest Solid::offset that buildExactVolume sets, over the element length; the share of Solid::offsetSlope comes on top, as large at most.
 constexpr double largestOffset = 0.2;
+/// Bodies thinner than this are cut by plane faces, exactly also between others; over the element length around them.
+constexpr double resolvedThickness = 1.5;
 
 class CoverBuilder
 {
@@ -31,7 +33,8 @@ public:
     /// Before cutting, moves the surface of every free solid by Newton steps (one, unless it misses much), starting from its current Solid::offset
     /// and offsetSlope, so that the volume it cuts out alone (without neighbours) becomes exactVolume() and its centre the shape's. At most largestOffset.
     /// A free solid that reaches through the boundary of the mesh, or is not in it, keeps its offsets. Fixed slip solids are moved once,
-    /// to cut out the volume of their part inside the mesh. Collective.
+    /// to cut out the volume of their part inside the mesh. Bodies thinner than resolvedThickness are marked
+    /// Solid::isThin, round ones of them get Solid::planeFaces. Collective.
     const Cover& buildExactVolume(std::vector<Solid>& solids);
 
     const Cover& cover() const { return cover_; }
@@ -78,6 +81,34 @@ private:
         bool hasCentroid;   // 2D: of a prismatic shape
     };
 
+    struct ThinShape
+    {
+        std::shared_ptr<const Shape> shape;
+        double thickness;                           // [m], infinite: cannot be cut by plane faces
+        std::shared_ptr<const PlaneFaces> faces;    // of what is round
+    };
+
+    /// A thin body has a part in an element.
+    struct ThinPart { int element, solid; };
+
+    /// Of elements with parts of thin bodies or nodes nearest to one. Alone: one thin body's; Apart: of several solids; Joined: with several others than thin bodies, which are cut as one.
+    enum class ThinElement : char { None, Alone, Apart, Joined };
+
+    /// Solids beside thin bodies in an element.
+    struct Others { int solid[5], n = 0; };
+
+    const ThinShape& thinShape(const Solid& solid);
+    bool mayBeThin(const Solid& solid);
+    void chooseThin(std::vector<Solid>& solids);
+    void findThinParts(const std::vector<Solid>& solids);
+    const ThinPart* partsIn(int element) const;
+    ThinElement kindOf(const Cover& cover, const std::vector<Solid>& solids, int element) const;
+    void addThinElements(const Cover& cover, const std::vector<Solid>& solids);
+    bool hasPart(const Solid& solid, int element);
+    bool isAmongThin(int element) const { return !thinElements_.empty() && thinElement_[element] != ThinElement::None; }
+    Others othersIn(const Cover& cover, const std::vector<Solid>& solids, int element) const;
+    template <int dim> CuttingFaces<dim> facesOf(const Others& others, const std::vector<Solid>& solids, int element) const;
+    template <int dim> void cutElementOfSolids(Cover& cover, const std::vector<Solid>& solids, int element) const;
     bool isSharp(const Solid& solid) const;
     unsigned facesBeyond(const Solid& solid) const;
     bool needsOffsets(const Solid& solid) const;
@@ -92,6 +123,7 @@ private:
     const KnownVolume& known(const Solid& solid);
     OwnCut cutAlone(const Solid& solid, const std::vector<Sample>& samples);
     template <int dim> void addAlone(OwnCut& own, const Solid& solid, int element) const;
+    template <class Visit, class Accept> void forEachLocalAlone(const Solid& solid, const std::vector<Sample>& samples, Visit visit, Accept accept);
     template <class Visit, class Accept> void forEachElementAlone(const Solid& solid, const std::vector<Sample>& samples, Visit visit, Accept accept);
     template <int dim, class Visit> void visitCutAlone(const Solid& solid, int element, Visit visit) const;
     void findCovered(Cover& cover, const std::vector<Solid>& solids);
@@ -130,7 +162,7 @@ private:
     template <int dim> void cutElementOf(Cover& cover, const std::vector<Solid>& solids, int element, const double* distance) const;
     template <int dim>
     void storeCut(Cover& cover, const std::vector<Solid>& solids, int element, const SimplexMoments<dim>& cut,
-        const SimplexFacet<dim>* facets, int nFacets) const;
+        const SimplexFacet<dim>* facets, int nFacets, const int* solidOf = nullptr) const; // solidOf: of SimplexFacet::solid, -1: by the place
     template <int dim> std::array<double, (dim + 1) * dim> verticesOf(int element) const;
     template <int dim> CuttingFaces<dim> cuttingFaces(const Solid& solid, int element) const;
     template <int dim> EdgeCut<dim> cutAtEdge(const CuttingFaces<dim>& faces, int element) const;
@@ -173,6 +205,11 @@ private:
     std::vector<double> aloneDistance_; // nNodes, scratch
     std::vector<int> aloneFace_;        // nNodes, scratch
     std::vector<KnownVolume> knownVolumes_;
+    std::vector<ThinShape> thinShapes_;
+    double longest_ = 0;                // element length of the whole mesh
+    std::vector<ThinPart> thinParts_;   // by element
+    std::vector<int> thinElements_;     // with thin parts or nodes nearest to thin bodies
+    std::vector<ThinElement> thinElement_;  // nElements, empty while there are none
     std::vector<int> coveredVolumeOf_;  // nElements, empty at first: position in cover_.coveredVolumes, -1 outside of findCovered()
     std::vector<int> sharedNodes_;      // of elements with nodes of several solids
     std::vector<char> isSharedNode_;    // nNodes
@@ -189,9 +226,9 @@ void CoverBuilder::forEachElementOf(const Sample& sample, double distance, const
         if (const int e = graph_.nodeElement[k]; elementMark_[e] != mark_ && (distance < 0 || isAtEdge(face, e))) visit(e);
 }
 
-/// Owned and inner elements that the solid alone may cut; aloneDistance_ and aloneFace_ are its own meanwhile.
+/// Elements that the solid alone may cut, halo elements too; aloneDistance_ and aloneFace_ are its own meanwhile. accept: nodes whose elements count.
 template <class Visit, class Accept>
-void CoverBuilder::forEachElementAlone(const Solid& solid, const std::vector<Sample>& samples, Visit visit, Accept accept)
+void CoverBuilder::forEachLocalAlone(const Solid& solid, const std::vector<Sample>& samples, Visit visit, Accept accept)
 {
     for (const Sample& s : samples)
     {
@@ -205,7 +242,7 @@ void CoverBuilder::forEachElementAlone(const Solid& solid, const std::vector<Sam
         forEachElementOf(s, aloneDistance_[s.node], aloneFace_, [&](int e)
         {
             elementMark_[e] = mark_;
-            if (mesh_.isOwnedElement[e] || e < mesh_.nInnerElements) visit(e);
+            visit(e);
         });
     }
     for (const Sample& s : samples)
@@ -213,6 +250,13 @@ void CoverBuilder::forEachElementAlone(const Solid& solid, const std::vector<Sam
         aloneDistance_[s.node] = farDistance;
         aloneFace_[s.node] = 0;
     }
+}
+
+/// Those of them that are owned or inner.
+template <class Visit, class Accept>
+void CoverBuilder::forEachElementAlone(const Solid& solid, const std::vector<Sample>& samples, Visit visit, Accept accept)
+{
+    forEachLocalAlone(solid, samples, [&](int e) { if (mesh_.isOwnedElement[e] || e < mesh_.nInnerElements) visit(e); }, accept);
 }
 
 /// visit(moments of the fluid part, facets, their number) of an element that the solid has a part in, within forEachElementAlone().

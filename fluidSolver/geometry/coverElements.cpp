@@ -28,6 +28,7 @@ SimplexCut<dim> wholeSimplex(double volume)
 
 void CoverBuilder::cutElement(Cover& cover, const std::vector<Solid>& solids, int element) const
 {
+    if (isAmongThin(element)) return mesh_.dim == 2 ? cutElementOfSolids<2>(cover, solids, element) : cutElementOfSolids<3>(cover, solids, element);
     double distance[4];
     int nSolid = 0;
     for (int a = 0; a <= mesh_.dim; ++a)
@@ -76,7 +77,8 @@ bool CoverBuilder::endsAtEdge(const Cover& cover, int element, int corner) const
         isMixed = isMixed || face_[nodes[a]] != face_[nodes[first]];
     }
     const int* sides = graph_.faces[f].element;
-    return isMixed && isAtEdgeOfOne(cover, sides[sides[0] == element]);
+    const int beyond = sides[sides[0] == element];
+    return isMixed && (isAmongThin(beyond) ? thinElement_[beyond] != ThinElement::Joined : isAtEdgeOfOne(cover, beyond));
 }
 
 bool CoverBuilder::endsAtEdge(const Cover& cover, int element) const
@@ -194,7 +196,7 @@ void CoverBuilder::addClosedFaces()
 
 template <int dim>
 void CoverBuilder::storeCut(Cover& cover, const std::vector<Solid>& solids, int element, const SimplexMoments<dim>& cut,
-    const SimplexFacet<dim>* facets, int nFacets) const
+    const SimplexFacet<dim>* facets, int nFacets, const int* solidOf) const
 {
     const double volume = mesh_.volume[element];
     double area = 0;
@@ -229,10 +231,14 @@ void CoverBuilder::storeCut(Cover& cover, const std::vector<Solid>& solids, int 
                 centroid[a] += f.shape[q][a] / dim;
             }
         }
-        f.solid = solidAt(cover, solids, element, centroid);
+        const int known = solidOf ? solidOf[facets[k].solid] : -1;
+        f.solid = known >= 0 ? known : solidAt(cover, solids, element, centroid);
     }
     c.facetEnd = static_cast<int>(cover.facets.size());
 }
+
+template void CoverBuilder::storeCut<2>(Cover&, const std::vector<Solid>&, int, const SimplexMoments<2>&, const SimplexFacet<2>*, int, const int*) const;
+template void CoverBuilder::storeCut<3>(Cover&, const std::vector<Solid>&, int, const SimplexMoments<3>&, const SimplexFacet<3>*, int, const int*) const;
 
 /// In space.
 Vec3 CoverBuilder::pointIn(int element, const double* shape) const

@@ -90,7 +90,7 @@ void CoverBuilder::sample(const Solid& solid, std::vector<Sample>& samples) cons
         const double limit = bins_.reach(node) + outward;
         if (outside > limit && !isNeedless_) return;
         double faces[maxFaces];
-        const int nFaces = sharp ? shape.faceDistances(y, faces) : 0;
+        const int nFaces = !sharp ? 0 : solid.planeFaces ? solid.planeFaces->distances(y, faces) : shape.faceDistances(y, faces);
         const double* nearest = std::max_element(faces, faces + nFaces);
         const double d = nFaces > 0 ? *nearest : linearDistance(y);
         if (d > limit) return;

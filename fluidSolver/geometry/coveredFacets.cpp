@@ -17,7 +17,7 @@ void CoverBuilder::findCovered(Cover& cover, const std::vector<Solid>& solids)
     {
         if (solids[s].kind == Solid::Kind::Fixed) continue;
         const int solid = static_cast<int>(s);
-        const auto isOthers = [&](const Sample& sample) { return cover.nearestSolid[sample.node] != solid; };
+        const auto isOthers = [&](const Sample& sample) { return cover.nearestSolid[sample.node] != solid || isSharedNode_[sample.node]; };
         if (std::none_of(samples_[s].begin(), samples_[s].end(), isOthers)) continue;
         forEachElementAlone(solids[s], samples_[s], [&](int e)
         {
@@ -65,6 +65,7 @@ void CoverBuilder::findSharedNodes(const Cover& cover)
 
 bool CoverBuilder::isShared(const Cover& cover, int solid, int element) const
 {
+    if (isAmongThin(element) && thinElement_[element] != ThinElement::Alone) return true;
     const int* nodes = nodesOf(element);
     return std::any_of(nodes, nodes + mesh_.dim + 1, [&](int i) { return cover.nearestSolid[i] != solid; });
 }

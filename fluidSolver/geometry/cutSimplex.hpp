@@ -22,6 +22,7 @@ struct SimplexFacet
     double weight[dim];             ///< of the quadrature points (exact for degree 2), sum = area
     double shape[dim][dim + 1];     ///< shape functions of the simplex at the points
     double normal[dim];             ///< unit, out of the fluid: -grad(distance)/|grad(distance)|
+    int solid;                      ///< position in the list of solids that were cut
 };
 
 template <int dim>
@@ -59,6 +60,11 @@ struct EdgeCut : SimplexMoments<dim>
 /// a simplex with all its nodes outside. distances: nFaces*(dim+1) nodal values, none zero.
 template <int dim>
 EdgeCut<dim> cutSimplexAtEdge(const double* distances, int nFaces, double volume, const double* vertices, const double* gradN);
+
+/// Likewise of several solids, each inside of all of its own faces: the fluid is outside of all of them. faceEnd: of each solid's faces in `distances`.
+/// One facet a face, whatever its outline: the points have its moments to the second.
+template <int dim>
+EdgeCut<dim> cutSimplexOfSolids(const double* distances, const std::vector<int>& faceEnd, double volume, const double* vertices, const double* gradN);
 
 /// Adds the part of a simplex's face, the one opposite to `corner`, where all of several distances (as above) are negative; normals out of the simplex.
 template <int dim>

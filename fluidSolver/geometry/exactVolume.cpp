@@ -24,7 +24,7 @@ struct Section { double area; bool isMean; };
 Section planeSection(const Shape& shape, const Vec3& direction, double height)
 {
     const auto [lower, upper] = shape.bounds();
-    const TriSurface surface = shape.surface((upper - lower).maxCoeff() / 100);
+    const TriSurface surface = shape.surface((upper - lower).minCoeff() / 100);
     const double section = sectionArea(surface, height * direction, direction);
     double low = 1e300, high = -1e300;
     for (const Vec3& x : surface.points)
@@ -42,8 +42,7 @@ Section planeSection(const Shape& shape, const Vec3& direction, double height)
 /// A shape with all faces plane is cut exactly as it is.
 bool CoverBuilder::needsOffsets(const Solid& solid) const
 {
-    double distances[maxFaces];
-    return !(isSharp(solid) && solid.faceDistances(solid.pose.position, distances) == maxFaces);
+    return !(isSharp(solid) && (solid.planeFaces || solid.shape->hasPlaneFaces()));
 }
 
 const CoverBuilder::KnownVolume& CoverBuilder::known(const Solid& solid)

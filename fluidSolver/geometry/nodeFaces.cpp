@@ -22,8 +22,14 @@ int NodeFaces::find(int node, const Solid& solid)
 void NodeFaces::evaluate(Row& row) const
 {
     const auto x = mesh_.spacePoint(row.node);
-    row.nFaces = row.solid->faceDistances(Vec3(x[0], x[1], x[2]), row.distances);
-    film_.lift(row.node, *row.solid, row.nFaces, row.distances);
+    const Vec3 place(x[0], x[1], x[2]);
+    row.nFaces = row.solid->faceDistances(place, row.distances);
+    if (row.nFaces > 0) film_.lift(row.node, *row.solid, row.nFaces, row.distances);
+    else
+    {
+        row.nFaces = 1;
+        row.distances[0] = std::max(row.solid->distance(place), film_.thickness(row.node, *row.solid));
+    }
     for (int k = 0; k < row.nFaces; ++k) row.distances[k] = snapped(row.distances[k], snap_[row.node]);
 }
 

@@ -25,7 +25,7 @@ public:
     /// Row of a solid at a node, valid until clear(). A node knows the row of the solid that was asked for last.
     int find(int node, const Solid& solid);
 
-    /// As the cut sees them: Solid::faceDistances, off the walls, never 0. Valid until find().
+    /// As the cut sees them: Solid::faceDistances, of shapes without faces Solid::distance(), off the walls, never 0. Valid until find().
     const double* distances(int row) const { return rows_[row].distances; }
     int nFaces(int row) const { return rows_[row].nFaces; }
 

@@ -13,6 +13,7 @@ public:
     BoxShape(const Vec3& centre, const Vec3& half) : centre_(centre), half_(half) {}
     double distance(const Vec3& x) const override;
     int faceDistances(const Vec3& x, double* distances) const override;
+    bool hasPlaneFaces() const override { return true; }
     std::array<Vec3, 2> bounds() const override { return {Vec3(centre_ - half_), Vec3(centre_ + half_)}; }
     VolumeMoments moments() const override;
     TriSurface surface(double size) const override;
@@ -87,6 +88,7 @@ public:
     PlacedShape(std::shared_ptr<const Shape> shape, const Eigen::Quaterniond& rotation, const Vec3& translation);
     double distance(const Vec3& x) const override { return shape_->distance(toInner(x)); }
     int faceDistances(const Vec3& x, double* distances) const override { return shape_->faceDistances(toInner(x), distances); }
+    bool hasPlaneFaces() const override { return shape_->hasPlaneFaces(); }
     Symmetry symmetry() const override;
     std::array<Vec3, 2> bounds() const override;
     VolumeMoments moments() const override;

@@ -30,8 +30,8 @@ struct TriSurface
     std::vector<std::array<int, 3>> triangles;
 };
 
-/// Of a box.
-constexpr int maxFaces = 6;
+/// Of a dodecahedron, see PlaneFaces.
+constexpr int maxFaces = 12;
 
 /// Rotations that turn a shape into itself, in its frame: none, about one axis, or all about a point.
 struct Symmetry
@@ -53,6 +53,9 @@ public:
     /// Signed distances [m] from the smooth faces that bound the shape if it is what lies inside of all of them: their number, at most
     /// maxFaces. 0 for other shapes.
     virtual int faceDistances(const Vec3& /*x*/, double* /*distances*/) const { return 0; }
+
+    /// Whether all faces of faceDistances() are plane.
+    virtual bool hasPlaneFaces() const { return false; }
 
     virtual Symmetry symmetry() const { return {}; }
 

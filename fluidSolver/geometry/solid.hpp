@@ -2,7 +2,7 @@
 /// What the fluid sees of a solid: a signed distance, a surface velocity and, for a free body, its inertia and load.
 #pragma once
 
-#include "geometry/shape.hpp"
+#include "geometry/planeFaces.hpp"
 
 #include <cmath>
 
@@ -34,6 +34,8 @@ struct Solid
     std::shared_ptr<const Shape> shape; ///< in the body frame; free body: centroid at the origin, principal axes
     Pose pose;                          ///< at the time the cover was (or is to be) cut
     Motion motion;                      ///< at that time; free body: predicted, the solve corrects it
+    bool isThin = false;                ///< for the mesh around it, and all of its faces that are cut are plane: CoverBuilder::buildExactVolume()
+    std::shared_ptr<const PlaneFaces> planeFaces;   ///< what is cut instead of the shape then, of what is round; or null
     double offset = 0;                  ///< surface moved outward by this so that the cut volume is the exact one [m]
     Vec3 offsetSlope = Vec3::Zero();    ///< and by its product with the distance from the origin, in space: so that its centre is, too
 
@@ -42,10 +44,11 @@ struct Solid
     {
         return shape->distance(pose.orientation.conjugate() * (x - pose.position)) - offsetAt(x);
     }
-    /// Shape::faceDistances in space.
+    /// Shape::faceDistances in space, of the plane faces if there are any.
     int faceDistances(const Vec3& x, double* distances) const
     {
-        const int n = shape->faceDistances(pose.orientation.conjugate() * (x - pose.position), distances);
+        const Vec3 y = pose.orientation.conjugate() * (x - pose.position);
+        const int n = planeFaces ? planeFaces->distances(y, distances) : shape->faceDistances(y, distances);
         for (int k = 0; k < n; ++k) distances[k] -= offsetAt(x);
         return n;
     }

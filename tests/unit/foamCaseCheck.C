@@ -46,8 +46,11 @@ TEST_CASE("report of a channel with and without bodies")
     controls.fluid.isTwoPhase = true;
     controls.fluid.gravity = g;
     scene.bodies = 20;
-    scene.thinnestBody = 0.02;
+    scene.thinnestBody = scene.thinnestLinearBody = 0.02;
     CHECK(capture(scene).find("the fluid does not see it") != std::string::npos);
+    scene.thinnestLinearBody = 0;   // cylinders and boxes float however thin they are
+    CHECK(capture(scene).find("the fluid does not see it") == std::string::npos);
+    CHECK(capture(scene).find("refine around the bodies") != std::string::npos);
     scene.thinnestBody = 0.2;
     CHECK(capture(scene).find("refine around the bodies") != std::string::npos);
 }

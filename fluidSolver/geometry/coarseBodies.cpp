@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// CoverBuilder: bodies thinner than an element or little more. Of a round one the linear cut sees what nodes lie inside, and between several solids it sees none without nodes inside:
+/// a log of half an element would weigh, but not float. Such bodies are cut by plane faces, and the elements that they share one solid after the other.
+#include "geometry/coverBuilder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace flotsam
+{
+
+namespace
+{
+
+constexpr double unknownThickness = std::numeric_limits<double>::infinity();
+
+/// Smallest extent of the shape [m], not along `across` (unit; zero: along any).
+double extent(const Shape& shape, const Vec3& across)
+{
+    const auto [lower, upper] = shape.bounds();
+    double least = unknownThickness;
+    for (int d = 0; d < 3; ++d)
+        if (std::abs(across[d]) < std::sqrt(0.5)) least = std::min(least, upper[d] - lower[d]);
+    return least;
+}
+
+} // namespace
+
+const CoverBuilder::ThinShape& CoverBuilder::thinShape(const Solid& solid)
+{
+    for (const ThinShape& thin : thinShapes_)
+        if (thin.shape == solid.shape) return thin;
+    ThinShape thin{solid.shape, unknownThickness, makePlaneFaces(*solid.shape)};
+    const Vec3 across = mesh_.dim == 2 ? Vec3(solid.pose.orientation.conjugate() * Vec3::Unit(mesh_.axes[2])) : Vec3(Vec3::Zero());
+    if (thin.faces) thin.thickness = roundThickness(*solid.shape);
+    else if (solid.shape->hasPlaneFaces()) thin.thickness = extent(*solid.shape, across);
+    return thinShapes_.emplace_back(thin);
+}
+
+/// Anywhere in the mesh. In 2D what is round must stand across the plane: the polyhedron's section is the shape's then.
+bool CoverBuilder::mayBeThin(const Solid& solid)
+{
+    if (!(solid.kind == Solid::Kind::Free || solid.isLoose)) return false;
+    const ThinShape& thin = thinShape(solid);
+    if (thin.thickness >= resolvedThickness * longest_) return false;
+    const Vec3 axis = solid.pose.orientation * solid.shape->symmetry().axis;
+    return mesh_.dim == 3 || !thin.faces || std::abs(axis[mesh_.axes[2]]) > 1 - 1e-9;
+}
+
+void CoverBuilder::chooseThin(std::vector<Solid>& solids)
+{
+    std::vector<double> lengths; // of each candidate: number of elements at nodes near it, sum of their lengths
+    std::vector<std::size_t> candidates;
+    for (std::size_t s = 0; s < solids.size(); ++s)
+    {
+        solids[s].isThin = false;
+        if (mayBeThin(solids[s])) candidates.push_back(s);
+        else solids[s].planeFaces.reset();
+    }
+    if (candidates.empty()) return;
+    for (const std::size_t s : candidates)
+    {
+        double count = 0, sum = 0;
+        bins_.forEachNear(solids[s].spaceBounds(), [&](int node, const Vec3&)
+        {
+            if (node >= mesh_.nOwned) return;
+            for (int k = graph_.nodeElementStart[node]; k < graph_.nodeElementStart[node + 1]; ++k) sum += mesh_.h[graph_.nodeElement[k]];
+            count += graph_.nodeElementStart[node + 1] - graph_.nodeElementStart[node];
+        });
+        lengths.insert(lengths.end(), {count, sum});
+    }
+    halo_.sum(lengths.data(), static_cast<int>(lengths.size()));
+    for (std::size_t k = 0; k < candidates.size(); ++k)
+    {
+        Solid& solid = solids[candidates[k]];
+        const ThinShape& thin = thinShape(solid);
+        solid.isThin = thin.thickness * lengths[2 * k] < resolvedThickness * lengths[2 * k + 1] && isSharp(solid);
+        solid.planeFaces = solid.isThin ? thin.faces : nullptr;
+        if (!solid.isThin) continue;
+        solid.offset = 0; // their volume is exact
+        solid.offsetSlope.setZero();
+    }
+}
+
+void CoverBuilder::findThinParts(const std::vector<Solid>& solids)
+{
+    thinParts_.clear();
+    nodeFaces_.clear(); // of the poses before
+    for (std::size_t s = 0; s < solids.size(); ++s)
+    {
+        if (!solids[s].isThin) continue;
+        const auto add = [&](int e) { if (hasPart(solids[s], e)) thinParts_.push_back({e, static_cast<int>(s)}); };
+        forEachLocalAlone(solids[s], samples_[s], add, [](int) { return true; });
+    }
+    std::sort(thinParts_.begin(), thinParts_.end(), [](const ThinPart& a, const ThinPart& b) { return a.element != b.element ? a.element < b.element : a.solid < b.solid; });
+}
+
+/// Of the solid alone, see visitCutAlone().
+bool CoverBuilder::hasPart(const Solid& solid, int element)
+{
+    bool has = false;
+    const auto look = [&](const auto& fluid, const auto*, int) { has = mesh_.volume[element] - fluid.volume > negligiblePart * mesh_.volume[element]; };
+    mesh_.dim == 2 ? visitCutAlone<2>(solid, element, look) : visitCutAlone<3>(solid, element, look);
+    return has;
+}
+
+/// Of those sorted by element: the first one of this element or after it, or the end.
+const CoverBuilder::ThinPart* CoverBuilder::partsIn(int element) const
+{
+    return std::lower_bound(thinParts_.data(), thinParts_.data() + thinParts_.size(), element, [](const ThinPart& p, int e) { return p.element < e; });
+}
+
+CoverBuilder::ThinElement CoverBuilder::kindOf(const Cover& cover, const std::vector<Solid>& solids, int element) const
+{
+    const Others others = othersIn(cover, solids, element);
+    if (others.n > 1) return ThinElement::Joined;
+    const int *nodes = nodesOf(element), first = cover.nearestSolid[nodes[0]];
+    const auto isFirsts = [&](int i) { return cover.nearestSolid[i] == first; };
+    const ThinPart* part = partsIn(element);
+    const ThinPart* end = thinParts_.data() + thinParts_.size();
+    bool isAlone = others.n == 0 && std::all_of(nodes, nodes + mesh_.dim + 1, isFirsts);
+    for (; part != end && part->element == element; ++part) isAlone = isAlone && part->solid == first;
+    return isAlone ? ThinElement::Alone : ThinElement::Apart;
+}
+
+/// Elements that are cut solid by solid: those with parts of thin bodies, and, so that the cut goes on across their faces, those with nodes nearest to one.
+void CoverBuilder::addThinElements(const Cover& cover, const std::vector<Solid>& solids)
+{
+    for (int e : thinElements_) thinElement_[e] = ThinElement::None;
+    thinElements_.clear();
+    if (std::none_of(solids.begin(), solids.end(), [](const Solid& solid) { return solid.isThin; })) return;
+    thinElement_.resize(mesh_.nElements, ThinElement::None);
+    const auto add = [&](int e)
+    {
+        if (thinElement_[e] != ThinElement::None) return;
+        thinElement_[e] = kindOf(cover, solids, e);
+        thinElements_.push_back(e);
+        if (firstVisit(elementMark_, e)) touchedElements_.push_back(e);
+    };
+    for (const ThinPart& part : thinParts_) add(part.element);
+    for (std::size_t s = 0; s < solids.size(); ++s)
+        for (std::size_t k = 0; solids[s].isThin && k < samples_[s].size(); ++k)
+        {
+            const int i = samples_[s][k].node;
+            for (int j = graph_.nodeElementStart[i]; cover.nearestSolid[i] == static_cast<int>(s) && j < graph_.nodeElementStart[i + 1]; ++j)
+                if (isNear(cover.distance, graph_.nodeElement[j])) add(graph_.nodeElement[j]);
+        }
+}
+
+/// Other solids than thin bodies that are nearest to a node of the element; those at rest in the mesh's cover count as one: -1.
+CoverBuilder::Others CoverBuilder::othersIn(const Cover& cover, const std::vector<Solid>& solids, int element) const
+{
+    Others others;
+    const int* nodes = nodesOf(element);
+    for (int a = 0; a <= mesh_.dim; ++a)
+    {
+        const int s = cover.nearestSolid[nodes[a]];
+        if (s < 0 || solids[s].isThin || solids[s].kind == Solid::Kind::Fixed || std::find(others.solid, others.solid + others.n, s) != others.solid + others.n) continue;
+        others.solid[others.n++] = s;
+    }
+    if (isNear(fixedCover_.distance, element)) others.solid[others.n++] = -1;
+    return others;
+}
+
+/// One solid by its faces; several, as elsewhere, by the least of their distances. isApart: they have no part in the element.
+template <int dim>
+CoverBuilder::CuttingFaces<dim> CoverBuilder::facesOf(const Others& others, const std::vector<Solid>& solids, int element) const
+{
+    const int* nodes = nodesOf(element);
+    const int fixed = fixedCover_.nearestSolid[nodes[0]];
+    const bool isOneFixed = others.solid[0] < 0 && isSharp(solids[fixed])
+        && std::all_of(nodes, nodes + dim + 1, [&](int i) { return fixedCover_.nearestSolid[i] == fixed; });
+    if (others.n == 1 && (others.solid[0] >= 0 || isOneFixed)) return cuttingFaces<dim>(solids[isOneFixed ? fixed : others.solid[0]], element);
+    CuttingFaces<dim> faces;
+    int nInside = 0;
+    for (int a = 0; a <= dim; ++a)
+    {
+        double& least = faces.distances[a] = farDistance;
+        for (int k = 0; k < others.n; ++k)
+        {
+            const int s = others.solid[k], row = s < 0 ? 0 : nodeFaces_.find(nodes[a], solids[s]);
+            const double* at = s < 0 ? nullptr : nodeFaces_.distances(row);
+            least = std::min(least, s < 0 ? fixedCover_.distance[nodes[a]] : *std::max_element(at, at + nodeFaces_.nFaces(row)));
+        }
+        nInside += least < 0;
+    }
+    faces.isApart = nInside == 0 || onlyTouches(element, faces.distances, nInside);
+    faces.n = nInside <= dim;
+    return faces;
+}
+
+template <int dim>
+void CoverBuilder::cutElementOfSolids(Cover& cover, const std::vector<Solid>& solids, int element) const
+{
+    cover.cutIndex[element] = -1;
+    cover.state[element] = ElementState::Fluid;
+    std::vector<double> distances;
+    std::vector<int> faceEnd, solidOf;
+    const auto add = [&](const CuttingFaces<dim>& faces, int solid)
+    {
+        if (faces.isApart) return;
+        distances.insert(distances.end(), faces.distances, faces.distances + faces.n * (dim + 1));
+        faceEnd.push_back(static_cast<int>(distances.size() / (dim + 1)));
+        solidOf.push_back(solid);
+    };
+    const ThinPart* end = thinParts_.data() + thinParts_.size();
+    for (const ThinPart* part = partsIn(element); part != end && part->element == element; ++part) add(cuttingFaces<dim>(solids[part->solid], element), part->solid);
+    const Others others = othersIn(cover, solids, element);
+    if (others.n > 0) add(facesOf<dim>(others, solids, element), others.n == 1 && others.solid[0] >= 0 ? others.solid[0] : -1);
+    if (solidOf.empty()) return;
+    const EdgeCut<dim> cut = cutSimplexOfSolids<dim>(distances.data(), faceEnd, mesh_.volume[element], verticesOf<dim>(element).data(), &mesh_.gradN[std::size_t(element) * (dim + 1) * dim]);
+    storeCut<dim>(cover, solids, element, cut, cut.facets.data(), static_cast<int>(cut.facets.size()), solidOf.data());
+}
+template void CoverBuilder::cutElementOfSolids<2>(Cover&, const std::vector<Solid>&, int) const;
+template void CoverBuilder::cutElementOfSolids<3>(Cover&, const std::vector<Solid>&, int) const;
+
+} // namespace flotsam
