@@ -66,6 +66,7 @@ void CoupledStep::restoreGeometry(bool hasChanged)
 {
     if (scene_.isEmpty()) return;
     PhaseTimer t(timers_, Phase::Cut);
+    builder_->chooseThin(scene_.solids());
     fluid_.setGeometry(&builder_->build(scene_.solids()), &scene_.solids(), hasChanged);
 }
 

@@ -62,7 +62,10 @@ void CoverBuilder::chooseThin(std::vector<Solid>& solids)
     for (const std::size_t s : candidates)
     {
         double count = 0, sum = 0;
-        bins_.forEachNear(solids[s].spaceBounds(), [&](int node, const Vec3&)
+        Solid plain = solids[s]; // as in isSharp(): whether it is thin decides about the offsets
+        plain.offset = 0;
+        plain.offsetSlope.setZero();
+        bins_.forEachNear(plain.spaceBounds(), [&](int node, const Vec3&)
         {
             if (node >= mesh_.nOwned) return;
             for (int k = graph_.nodeElementStart[node]; k < graph_.nodeElementStart[node + 1]; ++k) sum += mesh_.h[graph_.nodeElement[k]];

@@ -37,6 +37,10 @@ public:
     /// Solid::isThin, round ones of them get Solid::planeFaces. Collective.
     const Cover& buildExactVolume(std::vector<Solid>& solids);
 
+    /// What buildExactVolume() begins with: Solid::isThin and planeFaces, by shape, pose and mesh alone; offsets of thin solids become zero. Before build() of solids whose
+    /// poses and offsets were stored. Collective.
+    void chooseThin(std::vector<Solid>& solids);
+
     const Cover& cover() const { return cover_; }
 
     /// 3D: the shape's volume [m^3]. 2D: its section with the mesh's plane [m^2]; if the shape is
@@ -99,7 +103,6 @@ private:
 
     const ThinShape& thinShape(const Solid& solid);
     bool mayBeThin(const Solid& solid);
-    void chooseThin(std::vector<Solid>& solids);
     void findThinParts(const std::vector<Solid>& solids);
     const ThinPart* partsIn(int element) const;
     ThinElement kindOf(const Cover& cover, const std::vector<Solid>& solids, int element) const;
