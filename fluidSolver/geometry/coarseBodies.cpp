@@ -27,25 +27,21 @@ double extent(const Shape& shape, const Vec3& across)
 
 } // namespace
 
-const CoverBuilder::ThinShape& CoverBuilder::thinShape(const Solid& solid)
+/// Null: not round. Kept per shape.
+std::shared_ptr<const PlaneFaces> CoverBuilder::facesOfRound(const std::shared_ptr<const Shape>& shape)
 {
-    for (const ThinShape& thin : thinShapes_)
-        if (thin.shape == solid.shape) return thin;
-    ThinShape thin{solid.shape, unknownThickness, makePlaneFaces(*solid.shape)};
-    const Vec3 across = mesh_.dim == 2 ? Vec3(solid.pose.orientation.conjugate() * Vec3::Unit(mesh_.axes[2])) : Vec3(Vec3::Zero());
-    if (thin.faces) thin.thickness = roundThickness(*solid.shape);
-    else if (solid.shape->hasPlaneFaces()) thin.thickness = extent(*solid.shape, across);
-    return thinShapes_.emplace_back(thin);
+    for (const RoundShape& round : roundShapes_)
+        if (round.shape == shape) return round.faces;
+    return roundShapes_.emplace_back(RoundShape{shape, makePlaneFaces(*shape)}).faces;
 }
 
-/// Anywhere in the mesh. In 2D what is round must stand across the plane: the polyhedron's section is the shape's then.
-bool CoverBuilder::mayBeThin(const Solid& solid)
+/// Of what can be cut by plane faces [m]; infinite: others. In 2D what is round must stand across the plane: the polyhedron's section is the shape's then.
+double CoverBuilder::thickness(const Solid& solid)
 {
-    if (!(solid.kind == Solid::Kind::Free || solid.isLoose)) return false;
-    const ThinShape& thin = thinShape(solid);
-    if (thin.thickness >= resolvedThickness * longest_) return false;
-    const Vec3 axis = solid.pose.orientation * solid.shape->symmetry().axis;
-    return mesh_.dim == 3 || !thin.faces || std::abs(axis[mesh_.axes[2]]) > 1 - 1e-9;
+    const Vec3 across = mesh_.dim == 2 ? Vec3(solid.pose.orientation.conjugate() * Vec3::Unit(mesh_.axes[2])) : Vec3(Vec3::Zero());
+    if (solid.shape->hasPlaneFaces()) return extent(*solid.shape, across);
+    const bool isAlongPlane = mesh_.dim == 2 && std::abs(across.dot(solid.shape->symmetry().axis)) < 1 - 1e-9;
+    return facesOfRound(solid.shape) && !isAlongPlane ? roundThickness(*solid.shape) : unknownThickness;
 }
 
 void CoverBuilder::chooseThin(std::vector<Solid>& solids)
@@ -55,7 +51,8 @@ void CoverBuilder::chooseThin(std::vector<Solid>& solids)
     for (std::size_t s = 0; s < solids.size(); ++s)
     {
         solids[s].isThin = false;
-        if (mayBeThin(solids[s])) candidates.push_back(s);
+        const bool isBody = solids[s].kind == Solid::Kind::Free || solids[s].isLoose;
+        if (isBody && thickness(solids[s]) < resolvedThickness * longest_) candidates.push_back(s);
         else solids[s].planeFaces.reset();
     }
     if (candidates.empty()) return;
@@ -77,9 +74,8 @@ void CoverBuilder::chooseThin(std::vector<Solid>& solids)
     for (std::size_t k = 0; k < candidates.size(); ++k)
     {
         Solid& solid = solids[candidates[k]];
-        const ThinShape& thin = thinShape(solid);
-        solid.isThin = thin.thickness * lengths[2 * k] < resolvedThickness * lengths[2 * k + 1] && isSharp(solid);
-        solid.planeFaces = solid.isThin ? thin.faces : nullptr;
+        solid.isThin = thickness(solid) * lengths[2 * k] < resolvedThickness * lengths[2 * k + 1] && isSharp(solid);
+        solid.planeFaces = solid.isThin ? facesOfRound(solid.shape) : nullptr;
         if (!solid.isThin) continue;
         solid.offset = 0; // their volume is exact
         solid.offsetSlope.setZero();

@@ -85,11 +85,10 @@ private:
         bool hasCentroid;   // 2D: of a prismatic shape
     };
 
-    struct ThinShape
+    struct RoundShape
     {
         std::shared_ptr<const Shape> shape;
-        double thickness;                           // [m], infinite: cannot be cut by plane faces
-        std::shared_ptr<const PlaneFaces> faces;    // of what is round
+        std::shared_ptr<const PlaneFaces> faces;    // null: not round
     };
 
     /// A thin body has a part in an element.
@@ -101,8 +100,8 @@ private:
     /// Solids beside thin bodies in an element.
     struct Others { int solid[5], n = 0; };
 
-    const ThinShape& thinShape(const Solid& solid);
-    bool mayBeThin(const Solid& solid);
+    std::shared_ptr<const PlaneFaces> facesOfRound(const std::shared_ptr<const Shape>& shape);
+    double thickness(const Solid& solid);
     void findThinParts(const std::vector<Solid>& solids);
     const ThinPart* partsIn(int element) const;
     ThinElement kindOf(const Cover& cover, const std::vector<Solid>& solids, int element) const;
@@ -208,7 +207,7 @@ private:
     std::vector<double> aloneDistance_; // nNodes, scratch
     std::vector<int> aloneFace_;        // nNodes, scratch
     std::vector<KnownVolume> knownVolumes_;
-    std::vector<ThinShape> thinShapes_;
+    std::vector<RoundShape> roundShapes_;
     double longest_ = 0;                // element length of the whole mesh
     std::vector<ThinPart> thinParts_;   // by element
     std::vector<int> thinElements_;     // with thin parts or nodes nearest to thin bodies

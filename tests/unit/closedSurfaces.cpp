@@ -225,3 +225,24 @@ TEST_CASE("bodies thinner than an element that touch cut out their volumes, and 
     CHECK(largest[1] < 1e-12);
     CHECK(missing < 1e-10);
 }
+
+TEST_CASE("round bodies thinner than an element have their volume and centre, whatever frame they are given in")
+{
+    const CoverScene scene(3, 12);
+    CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+    const double r = 0.3 * 2 / 12;
+    const Eigen::Quaterniond turned(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
+    for (const auto& shape : {makeSphere(Vec3::Zero(), r), makeCapsule({-0.2, 0, 0}, {0.2, 0, 0}, r), makeCylinder({0, -0.2, 0}, {0, 0.2, 0}, r),
+             makePlaced(makeCylinder({0.1, 0, -0.2}, {0.1, 0, 0.2}, r), turned, -(turned * Vec3(0.1, 0, 0)))})
+    {
+        std::vector<Solid> solids = {makeSolid(shape, {0.03, -0.02, 0.04}, Solid::Kind::Free)};
+        const Cover& cover = builder.buildExactVolume(solids);
+        CHECK(solids[0].isThin);
+        double covered;
+        const Eigen::Matrix<double, 4, 3> moments = surfaceMoments(scene, cover, 0, covered);
+        const double volume = shape->moments().volume;
+        for (int d = 0; d < 3; ++d)
+            for (int k = 0; k < 4; ++k) CHECK(moments(k, d) == within(k == d + 1 ? -volume : 0, 1e-12 * volume / r));
+        CHECK(cover.solidVolume[0] == near(volume, 1e-12));
+    }
+}

@@ -74,6 +74,22 @@ TEST_CASE("spheres of a union are as fine as its thinnest part demands")
     CHECK(has(s.message(bodies("shape { type union; parts { a { " + trunk + " } b { " + wad + " } } } density 600; spheres { radius 0.03; }")), "smallest extent is 0.04 m"));
 }
 
+TEST_CASE("the thinnest body, and the thinnest of those that the cut does not see between the nodes")
+{
+    BodiesScene s;
+    const std::string log = "type cylinder; end1 (0 0 0); end2 (0.3 0 0); radius 0.02;";
+    const auto thinnest = [&](const std::string& shape)
+    {
+        const BodiesInput input = s.read(bodies("shape { " + shape + " } density 600; position (1 0.5 0.2);"));
+        return std::pair(thinnestBody(input), thinnestLinearBody(input));
+    };
+    CHECK(thinnest(log) == std::pair(0.04, 0.0));
+    CHECK(thinnest("type box; size (0.3 0.03 0.1);") == std::pair(0.03, 0.0));
+    const auto [whole, linear] = thinnest("type union; parts { a { " + log + " } b { type sphere; radius 0.05; } }");
+    CHECK(whole == near(0.04, 1e-14));
+    CHECK(linear == whole);
+}
+
 TEST_CASE("one body: mass, inertia, spheres, pose")
 {
     BodiesScene s;
