@@ -24,6 +24,7 @@ struct BoundaryState
     const double* velocity; ///< nNodes*dim
     const double* alpha;    ///< nNodes
     const double* solidDistance = nullptr;  ///< nNodes, negative inside; null: no solids [m]
+    const double* entering = nullptr;       ///< per node of the patch: phase field of what enters, PatchValues::alpha of the same time; null: that of the nodes
 };
 
 struct BoundaryPatch

@@ -149,6 +149,16 @@ VelocityCondition flowRateVelocity(const ConditionInput& in)
         { distributeFlow(*n, halo, f->value(state.time), all, all, state.solidDistance, name, out); });
 }
 
+/// Share of the inlet's velocity that the nodes of a patch have where `liquid` enters: all of it where a node or one that shares a face with it has a fifth of liquid, so that
+/// the elements that the surface passes move as the liquid in them. Gas at rest there slows it down, in elements that count it to both nodes, and makes waves (docs/numerics, 2.8).
+std::vector<double> shareOfVelocity(const PatchNodes& patch, const Halo& halo, const std::vector<double>& liquid)
+{
+    constexpr double enough = 0.2;
+    std::vector<double> share = patch.largestAround(halo, liquid);
+    for (double& s : share) s = std::min(1.0, s/enough);
+    return share;
+}
+
 VelocityCondition variableHeightVelocity(const ConditionInput& in)
 {
     const Foam::word alpha = in.dict.getOrDefault<Foam::word>("alpha", in.controls.alphaName);
@@ -159,8 +169,8 @@ VelocityCondition variableHeightVelocity(const ConditionInput& in)
         const BoundaryState& state, std::vector<double>& out)
     {
         std::vector<double> liquid; // the surface's nodes let gas in as well: what counts is the liquid
-        for (int node : n->nodes) liquid.push_back(std::clamp(state.alpha[node], 0.0, 1.0));
-        distributeFlow(*n, halo, f->value(state.time), liquid, liquid, state.solidDistance, name, out);
+        for (std::size_t k = 0; k < n->nodes.size(); ++k) liquid.push_back(std::clamp(state.entering ? state.entering[k] : state.alpha[n->nodes[k]], 0.0, 1.0));
+        distributeFlow(*n, halo, f->value(state.time), shareOfVelocity(*n, halo, liquid), liquid, state.solidDistance, name, out);
     });
 }
 
@@ -253,19 +263,16 @@ PhaseCondition inletOutletPhase(const ConditionInput& in) { return inflowPhase(i
 PhaseCondition uniformPhase(const ConditionInput& in) { return {Phase::Inflow, uniformScalars(in, "uniformValue")}; }
 PhaseCondition uniformInletOutletPhase(const ConditionInput& in) { return {Phase::Inflow, uniformScalars(in, "uniformInletValue")}; }
 
-/// The phase at the patch enters again, values below/above the bounds as pure gas/liquid: the water level at the inlet floats.
+/// The phase an element inside the patch enters, values below/above the bounds as pure gas/liquid: the water level at the inlet is that of the stream inside. With the phase
+/// of the patch's own nodes nothing would bring it back: they have no velocity along the patch by which the stream could raise or lower it.
 PhaseCondition variableHeightPhase(const ConditionInput& in)
 {
     const double lower = readNumber(in.dict, "lowerBound", {-1, 1}), upper = readNumber(in.dict, "upperBound", {0, 2});
     if (lower >= upper) failIn(in.dict, text("lowerBound ", lower, " must be below upperBound ", upper, "."));
-    return {Phase::Inflow, [n = in.nodes, lower, upper](const BoundaryState& state, std::vector<double>& out)
+    return {Phase::Inflow, [n = in.nodes, &halo = in.halo, lower, upper](const BoundaryState& state, std::vector<double>& out)
     {
-        out.clear();
-        for (int node : n->nodes)
-        {
-            const double a = state.alpha[node];
-            out.push_back(a < lower ? 0.0 : a > upper ? 1.0 : a);
-        }
+        out = n->insideValues(halo, state.alpha);
+        for (double& a : out) a = a < lower ? 0.0 : a > upper ? 1.0 : a;
     }};
 }
 

@@ -70,14 +70,16 @@ void checkCombination(const BoundaryPatch& patch, const Foam::dictionary& veloci
         pressureName, ";\n    where the pressure is prescribed use pressureInletOutletVelocity, inletOutlet or zeroGradient for U."));
 }
 
-/// All patches at once sit behind one function: values of the three fields.
+/// All conditions of a patch sit behind one function: values of the three fields. The phase first: flow rates of the liquid depend on what enters.
 std::function<void(const BoundaryState&, PatchValues&)> evaluator(NodalValues velocity, NodalValues pressure, NodalValues phase)
 {
     return [=](const BoundaryState& state, PatchValues& values)
     {
-        velocity ? velocity(state, values.velocity) : values.velocity.clear();
-        pressure ? pressure(state, values.pressure) : values.pressure.clear();
         phase ? phase(state, values.alpha) : values.alpha.clear();
+        BoundaryState withPhase = state;
+        withPhase.entering = phase ? values.alpha.data() : nullptr;
+        velocity ? velocity(withPhase, values.velocity) : values.velocity.clear();
+        pressure ? pressure(state, values.pressure) : values.pressure.clear();
     };
 }
 

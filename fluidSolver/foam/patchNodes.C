@@ -62,6 +62,41 @@ double faceOutflow(const PatchNodes& patch, std::size_t f, const std::vector<dou
     return sum;
 }
 
+/// inwards: per node of the patch. An element holds the line if no shape function of its other corners falls along it; round-off decides where it runs in a face.
+std::vector<PatchNodes::InnerPoint> innerPointsOf(const SimplexMesh& mesh, const std::vector<int>& nodes, const std::vector<double>& outwards)
+{
+    const int dim = mesh.dim, corners = dim + 1;
+    std::vector<PatchNodes::InnerPoint> points(nodes.size(), {{0, 0, 0}, {0, 0, 0}});
+    std::vector<double> least(nodes.size(), -1e300);
+    for (int e = 0; e < mesh.nElements; ++e)
+        for (int k = 0; k < corners; ++k)
+        {
+            const int node = mesh.elements[std::size_t(e)*corners + k];
+            const auto at = std::lower_bound(nodes.begin(), nodes.end(), node);
+            if (at == nodes.end() || *at != node) continue;
+            const std::size_t p = at - nodes.begin();
+            double rise[4], smallest = 1e300, sum = 0;
+            for (int l = 0; l < corners; ++l)
+            {
+                rise[l] = 0;
+                for (int d = 0; d < dim; ++d) rise[l] -= mesh.gradN[(std::size_t(e)*corners + l)*dim + d]*outwards[p*dim + d];
+                if (l == k) continue;
+                smallest = std::min(smallest, rise[l]);
+                rise[l] = std::max(0.0, rise[l]);
+                sum += rise[l];
+            }
+            if (smallest <= least[p] || sum == 0) continue;
+            least[p] = smallest;
+            for (int l = 0, n = 0; l < corners; ++l)
+            {
+                if (l == k) continue;
+                points[p].nodes[n] = mesh.elements[std::size_t(e)*corners + l];
+                points[p].weights[n++] = rise[l]/sum;
+            }
+        }
+    return points;
+}
+
 } // namespace
 
 PatchNodes makePatchNodes(const SimplexMesh& mesh, const Halo& halo, const MeshPatch& patch)
@@ -70,18 +105,47 @@ PatchNodes makePatchNodes(const SimplexMesh& mesh, const Halo& halo, const MeshP
     result.mesh = &mesh;
     result.nodes = nodesOf(mesh, halo, patch);
     result.normal = normalsOf(mesh, halo, patch, result.nodes);
+    result.innerPoints = innerPointsOf(mesh, result.nodes, result.normal);
     for (std::size_t f = 0; f < patch.faceElement.size(); ++f)
     {
+        int corners[3];
+        for (int k = 0; k < mesh.dim; ++k)
+            corners[k] = static_cast<int>(std::lower_bound(result.nodes.begin(), result.nodes.end(), patch.faceNodes[f*mesh.dim + k]) - result.nodes.begin());
+        result.facesAtNodes.insert(result.facesAtNodes.end(), corners, corners + mesh.dim);
         if (!patch.isOwnedFace[f]) continue;
+        result.faceNodes.insert(result.faceNodes.end(), corners, corners + mesh.dim);
         double a[3];
         outwardVector(mesh, patch, f, a);
         for (int d = 0; d < mesh.dim; ++d) result.faceArea.push_back(a[d]*(mesh.dim == 2 ? mesh.thickness : 1.0));
-        for (int k = 0; k < mesh.dim; ++k)
-        {
-            const auto at = std::lower_bound(result.nodes.begin(), result.nodes.end(), patch.faceNodes[f*mesh.dim + k]);
-            result.faceNodes.push_back(static_cast<int>(at - result.nodes.begin()));
-        }
     }
+    return result;
+}
+
+std::vector<double> PatchNodes::insideValues(const Halo& halo, const double* values) const
+{
+    std::vector<double> inside(mesh->nNodes, 0.0);
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+        for (int l = 0; l < mesh->dim; ++l) inside[nodes[k]] += innerPoints[k].weights[l]*values[innerPoints[k].nodes[l]];
+    halo.update(inside, 1);
+    std::vector<double> result;
+    for (int i : nodes) result.push_back(inside[i]);
+    return result;
+}
+
+std::vector<double> PatchNodes::largestAround(const Halo& halo, const std::vector<double>& values) const
+{
+    const std::size_t dim = mesh->dim;
+    std::vector<double> largest(mesh->nNodes, 0.0);
+    for (std::size_t k = 0; k < nodes.size(); ++k) largest[nodes[k]] = values[k];
+    for (std::size_t f = 0; f*dim < facesAtNodes.size(); ++f)
+        for (std::size_t k = 0; k < dim*dim; ++k)
+        {
+            double& l = largest[nodes[facesAtNodes[f*dim + k/dim]]];
+            l = std::max(l, values[facesAtNodes[f*dim + k%dim]]);
+        }
+    halo.update(largest, 1);
+    std::vector<double> result;
+    for (int i : nodes) result.push_back(largest[i]);
     return result;
 }
 

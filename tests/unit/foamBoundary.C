@@ -47,7 +47,7 @@ struct Scene
         patch(name).evaluate({time, velocity.data(), alpha.data(), distance.empty() ? nullptr : distance.data()}, v);
         return v;
     }
-    /// Of liquid through the plane channel's inlet, alpha and velocity linear between the nodes, by Simpson's rule [m^3/s].
+    /// Of liquid through the plane channel's inlet, what enters and its velocity linear between the nodes, by Simpson's rule [m^3/s].
     double liquidInflow(const PatchValues& v) const
     {
         const BoundaryPatch& p = patch("inlet");
@@ -61,8 +61,9 @@ struct Scene
             {
                 const int i = m.faceNodes[2*f + k];
                 y[k] = adapter.mesh.x[2*i + 1];
-                a[k] = std::clamp(alpha[i], 0.0, 1.0);
-                u[k] = v.velocity[2*(std::lower_bound(p.nodes.begin(), p.nodes.end(), i) - p.nodes.begin())];
+                const std::size_t at = std::lower_bound(p.nodes.begin(), p.nodes.end(), i) - p.nodes.begin();
+                a[k] = v.alpha[at];
+                u[k] = v.velocity[2*at];
             }
             sum += adapter.mesh.thickness*std::abs(y[1] - y[0])*(a[0]*u[0] + (a[0] + a[1])*(u[0] + u[1]) + a[1]*u[1])/6;
         }
@@ -119,6 +120,8 @@ std::string refused(const std::string& file, const std::string& from, const std:
     return messageOf([&] { Scene scene(Edits{{file, from, to}}); });
 }
 
+const FoamCase::Edit inletOnTwoRanks{"system/decomposeParDict", "n (2 1 1)", "n (1 2 1)"};
+
 /// The inlet of the channel, with velocities on its faces.
 struct FaceScene : Scene
 {
@@ -128,7 +131,7 @@ struct FaceScene : Scene
 
     /// In the plane two ranks share the inlet.
     explicit FaceScene(const std::string& blockMeshDict)
-    :   Scene(blockMeshDict == "blockMeshDict3d" ? inSpace() : Edits{{"system/decomposeParDict", "n (2 1 1)", "n (1 2 1)"}}, blockMeshDict), faces(foam.mesh().boundaryMesh()["inlet"]),
+    :   Scene(blockMeshDict == "blockMeshDict3d" ? inSpace() : Edits{inletOnTwoRanks}, blockMeshDict), faces(foam.mesh().boundaryMesh()["inlet"]),
         nodes(makePatchNodes(adapter.mesh, halo, adapter.mesh.patches[patch("inlet").meshPatch]))
     {}
 
@@ -207,15 +210,18 @@ TEST_CASE("flow rate: the P1 flux is the given one to round-off, the velocity un
     }
 }
 
-TEST_CASE("flow rate over the wetted part follows alpha")
+TEST_CASE("flow rate of the liquid that enters; one layer above it moves with it, whatever is further up rests")
 {
-    Scene s(Edits{{"0/U", inletU, "type variableHeightFlowRateInletVelocity; flowRate table ((0 0.01) (10 0.03)); alpha alpha.water; value uniform (0 0 0);"}});
+    Scene s(Edits{{"0/U", inletU, "type variableHeightFlowRateInletVelocity; flowRate table ((0 0.01) (10 0.03)); alpha alpha.water; value uniform (0 0 0);"}, inletOnTwoRanks});
+    const auto& inlet = s.patch("inlet");
     for (int i = 0; i < s.adapter.mesh.nNodes; ++i) s.alpha[i] = s.adapter.mesh.x[2*i + 1] < 0.55 ? 1.02 : -0.01;
     const PatchValues v = s.values("inlet", 5);
     CHECK(s.liquidInflow(v) == near(0.02, 1e-14));
-    const auto& inlet = s.patch("inlet");
     for (std::size_t i = 0; i < inlet.nodes.size(); ++i)
-        if (s.adapter.mesh.x[2*inlet.nodes[i] + 1] > 0.55) CHECK(v.velocity[2*i] == 0);
+    {
+        const double y = s.adapter.mesh.x[2*inlet.nodes[i] + 1];
+        CHECK(v.velocity[2*i] == near(y < 0.65 ? 0.02/(0.1*0.55) : 0, 1e-13));   // alpha linear from 0.5 to 0.6
+    }
     for (int i = 0; i < s.adapter.mesh.nNodes; ++i) s.alpha[i] = std::clamp(5.2*(0.6 - s.adapter.mesh.x[2*i + 1]), 0.0, 1.0);
     CHECK(s.liquidInflow(s.values("inlet", 5)) == near(0.02, 1e-14));    // whatever gas the surface's nodes let in
     std::fill(s.alpha.begin(), s.alpha.end(), 0.0);
@@ -239,16 +245,23 @@ TEST_CASE("a flow rate enters above what covers the lower part of the patch")
     if (isSerial()) CHECK(has(messageOf([&] { covered.values("inlet"); }), "solids cover it"));
 }
 
-TEST_CASE("variableHeightFlowRate cuts off at its bounds")
+TEST_CASE("variableHeightFlowRate lets in what is an element inside the patch, cut off at its bounds")
 {
-    Scene s;
-    for (int i = 0; i < s.adapter.mesh.nNodes; ++i) s.alpha[i] = s.adapter.mesh.x[2*i + 1]; // 0 ... 1
-    const auto& inlet = s.patch("inlet");
-    const PatchValues v = s.values("inlet");
-    for (std::size_t i = 0; i < inlet.nodes.size(); ++i)
+    for (const std::string mesh : {"blockMeshDict", "blockMeshDict3d"})
     {
-        const double a = s.alpha[inlet.nodes[i]];
-        CHECK(v.alpha[i] == (a < 0.1 ? 0.0 : a > 0.9 ? 1.0 : a));
+        if (mesh == "blockMeshDict3d" && !isSerial()) continue;
+        Scene s(mesh == "blockMeshDict3d" ? FaceScene::inSpace() : Edits{inletOnTwoRanks}, mesh);
+        const int dim = s.adapter.mesh.dim;
+        const auto inside = [](double x, double y) { return y + (x > 1e-9 ? 0.03 : -7); };    // nothing of the patch's own nodes enters
+        for (int i = 0; i < s.adapter.mesh.nNodes; ++i) s.alpha[i] = inside(s.adapter.mesh.x[dim*i], s.adapter.mesh.x[dim*i + 1]);
+        const auto& inlet = s.patch("inlet");
+        const PatchValues v = s.values("inlet");
+        REQUIRE(v.alpha.size() == inlet.nodes.size());
+        for (std::size_t k = 0; k < inlet.nodes.size(); ++k)
+        {
+            const double a = inside(1, s.adapter.mesh.x[dim*inlet.nodes[k] + 1]);
+            CHECK(v.alpha[k] == within(a < 0.1 ? 0.0 : a > 0.9 ? 1.0 : a, 1e-12));
+        }
     }
 }
 
