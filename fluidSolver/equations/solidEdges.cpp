@@ -10,11 +10,12 @@ namespace flotsam
 namespace
 {
 
-/// Free bodies have none: they go with the water around, and their motion is not known before the solve.
+/// Free bodies have none: they go with the water around, and their motion is not known before the solve. Nor have the faces that stand for what is round.
 bool hasEdges(const Solid& solid)
 {
     double distance[maxFaces];
-    return solid.kind != Solid::Kind::Free && !solid.isThin && solid.faceDistances(solid.pose.position, distance) > 1;
+    const bool isStructure = solid.kind != Solid::Kind::Free && !(solid.isThin && solid.isLoose);
+    return isStructure && !solid.planeFaces && solid.faceDistances(solid.pose.position, distance) > 1;
 }
 
 /// Of the solid's faces the one that a facet group lies on, as a bit; 0: it cuts an edge off and lies on none.

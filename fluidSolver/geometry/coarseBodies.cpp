@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// CoverBuilder: bodies thinner than an element or little more. Of a round one the linear cut sees what nodes lie inside, and between several solids it sees none without nodes inside:
-/// a log of half an element would weigh, but not float. Such bodies are cut by plane faces, and the elements that they share one solid after the other.
+/// CoverBuilder: solids thinner than an element or little more. Of a round one the linear cut sees what nodes lie inside, and between several solids it sees none without nodes inside:
+/// a log of half an element would weigh, but not float, and a rack of such bars would hold nothing back. They are cut by plane faces, and the elements that they share one solid after
+/// the other. Structures among them are cut anew with what moves.
 #include "geometry/coverBuilder.hpp"
 
 #include <algorithm>
@@ -51,8 +52,7 @@ void CoverBuilder::chooseThin(std::vector<Solid>& solids)
     for (std::size_t s = 0; s < solids.size(); ++s)
     {
         solids[s].isThin = false;
-        const bool isBody = solids[s].kind == Solid::Kind::Free || solids[s].isLoose;
-        if (isBody && thickness(solids[s]) < resolvedThickness * longest_) candidates.push_back(s);
+        if (thickness(solids[s]) < resolvedThickness * longest_) candidates.push_back(s);
         else solids[s].planeFaces.reset();
     }
     if (candidates.empty()) return;
@@ -74,7 +74,7 @@ void CoverBuilder::chooseThin(std::vector<Solid>& solids)
     for (std::size_t k = 0; k < candidates.size(); ++k)
     {
         Solid& solid = solids[candidates[k]];
-        solid.isThin = thickness(solid) * lengths[2 * k] < resolvedThickness * lengths[2 * k + 1] && isSharp(solid);
+        solid.isThin = thickness(solid) * lengths[2 * k] < resolvedThickness * lengths[2 * k + 1] && (solid.kind == Solid::Kind::Fixed || isSharp(solid)); // what one at rest covers of the boundary does not change
         solid.planeFaces = solid.isThin ? facesOfRound(solid.shape) : nullptr;
         if (!solid.isThin) continue;
         solid.offset = 0; // their volume is exact
@@ -155,7 +155,7 @@ CoverBuilder::Others CoverBuilder::othersIn(const Cover& cover, const std::vecto
     for (int a = 0; a <= mesh_.dim; ++a)
     {
         const int s = cover.nearestSolid[nodes[a]];
-        if (s < 0 || solids[s].isThin || solids[s].kind == Solid::Kind::Fixed || std::find(others.solid, others.solid + others.n, s) != others.solid + others.n) continue;
+        if (s < 0 || solids[s].isThin || solids[s].isCutOnce() || std::find(others.solid, others.solid + others.n, s) != others.solid + others.n) continue;
         others.solid[others.n++] = s;
     }
     if (isNear(fixedCover_.distance, element)) others.solid[others.n++] = -1;

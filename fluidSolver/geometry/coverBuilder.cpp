@@ -156,8 +156,8 @@ bool CoverBuilder::sameFixedSolids(const std::vector<Solid>& solids) const
     if (!hasFixedCover_ || solids.size() != fixedSolids_.size()) return false;
     for (std::size_t s = 0; s < solids.size(); ++s)
     {
-        if (solids[s].kind != fixedSolids_[s].kind) return false;
-        if (solids[s].kind == Solid::Kind::Fixed && !isSameFixed(solids[s], fixedSolids_[s])) return false;
+        if (solids[s].isCutOnce() != fixedSolids_[s].isCutOnce()) return false;
+        if (solids[s].isCutOnce() && !isSameFixed(solids[s], fixedSolids_[s])) return false;
     }
     return true;
 }
@@ -180,7 +180,7 @@ void CoverBuilder::cutFixedSolids(const std::vector<Solid>& solids)
     ++mark_;
     for (std::size_t s = 0; s < solids.size(); ++s)
     {
-        if (solids[s].kind != Solid::Kind::Fixed) continue;
+        if (!solids[s].isCutOnce()) continue;
         std::vector<Sample> samples;
         sample(solids[s], samples);
         const auto isInside = [&](const Sample& k) { return cutDistance(solids[s], k) < 0; };
@@ -234,7 +234,7 @@ const Cover& CoverBuilder::cutMovingSolids(const std::vector<Solid>& solids)
     findThinParts(solids);
     ++mark_;
     for (std::size_t s = 0; s < solids.size(); ++s)
-        if (solids[s].kind != Solid::Kind::Fixed)
+        if (!solids[s].isCutOnce())
         {
             applySamples(cover_, solids, static_cast<int>(s), samples_[s]);
             addElementsOf(cover_, solids, static_cast<int>(s), samples_[s]);

@@ -16,7 +16,7 @@ namespace flotsam
 
 /// Largest Solid::offset that buildExactVolume sets, over the element length; the share of Solid::offsetSlope comes on top, as large at most.
 constexpr double largestOffset = 0.2;
-/// Bodies thinner than this are cut by plane faces, exactly also between others; over the element length around them.
+/// Solids thinner than this are cut by plane faces, exactly also between others; over the element length around them.
 constexpr double resolvedThickness = 1.5;
 
 class CoverBuilder
@@ -33,7 +33,7 @@ public:
     /// Before cutting, moves the surface of every free solid by Newton steps (one, unless it misses much), starting from its current Solid::offset
     /// and offsetSlope, so that the volume it cuts out alone (without neighbours) becomes exactVolume() and its centre the shape's. At most largestOffset.
     /// A free solid that reaches through the boundary of the mesh, or is not in it, keeps its offsets. Fixed slip solids are moved once,
-    /// to cut out the volume of their part inside the mesh. Bodies thinner than resolvedThickness are marked
+    /// to cut out the volume of their part inside the mesh. Solids thinner than resolvedThickness are marked
     /// Solid::isThin, round ones of them get Solid::planeFaces. Collective.
     const Cover& buildExactVolume(std::vector<Solid>& solids);
 

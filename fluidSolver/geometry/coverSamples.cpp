@@ -16,10 +16,11 @@ constexpr double flush = 1e-9;
 } // namespace
 
 /// The faces of the mesh's boundary are cut linearly: a structure that reaches through it is as well. A free body stays sharp on its way out:
-/// its cut, and with it its weight in the water, must not jump; only the fluid part of an open boundary's faces at its edges is then not exact.
+/// its cut, and with it its weight in the water, must not jump; only the fluid part of an open boundary's faces at its edges is then not exact. So do thin solids,
+/// of which linear cuts see too little (coarseBodies.cpp).
 bool CoverBuilder::isSharp(const Solid& solid) const
 {
-    if (solid.kind == Solid::Kind::Free) return true;
+    if (solid.kind == Solid::Kind::Free || solid.isThin) return true;
     Solid plain = solid; // the answer decides about the offsets: it must not depend on them
     plain.offset = 0;
     plain.offsetSlope.setZero();
@@ -111,7 +112,7 @@ void CoverBuilder::sampleMovingSolids(const std::vector<Solid>& solids)
 {
     samples_.resize(solids.size());
     for (std::size_t s = 0; s < solids.size(); ++s)
-        if (solids[s].kind != Solid::Kind::Fixed) sample(solids[s], samples_[s]);
+        if (!solids[s].isCutOnce()) sample(solids[s], samples_[s]);
 }
 
 double CoverBuilder::cutDistance(const Solid& solid, const Sample& sample) const

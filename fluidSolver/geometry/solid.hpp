@@ -39,6 +39,8 @@ struct Solid
     double offset = 0;                  ///< surface moved outward by this so that the cut volume is the exact one [m]
     Vec3 offsetSlope = Vec3::Zero();    ///< and by its product with the distance from the origin, in space: so that its centre is, too
 
+    /// At rest for good, and resolved: CoverBuilder cuts such solids once.
+    bool isCutOnce() const { return kind == Kind::Fixed && !isThin; }
     /// Signed distance of a point in space [m], negative inside.
     double distance(const Vec3& x) const
     {

@@ -246,3 +246,49 @@ TEST_CASE("round bodies thinner than an element have their volume and centre, wh
         CHECK(cover.solidVolume[0] == near(volume, 1e-12));
     }
 }
+
+// Bars of a rack from bed to lid, upright and inclined; logs of half an element and bodies of several elements against them.
+TEST_CASE("structures thinner than an element are cut as bodies are, also where they reach through the mesh")
+{
+    double largest = 0;
+    for (const int dim : {2, 3})
+    {
+        const int n = dim == 2 ? 24 : 12;
+        const double h = 2.0 / n;
+        const CoverScene scene(dim, n);
+        for (const double thickness : {0.3, 0.7, 1.2})
+            for (int k = 0; k < 8; ++k)
+            {
+                CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+                const double d = thickness * h, by = 0.002 * h * (k % 2 ? 1 : -1), reach = dim == 2 ? 0.5 : 1.5;
+                const bool isRound = k % 2 == 0, isUpright = dim == 2 || k < 6;
+                const auto bar = isRound ? makeCylinder({0, 0, -reach}, {0, 0, reach}, 0.5 * d) : makeBox(Vec3::Zero(), {d, 0.8 * d, 2 * reach});
+                std::vector<Solid> solids;
+                for (int j = 0; j < 2; ++j) solids.push_back(makeSolid(bar, {0.05 + 0.017 * k, 0.03 - 0.013 * k + 3.3 * h * j, 0}, Solid::Kind::Fixed));
+                if (!isUpright) for (Solid& solid : solids) solid.pose.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Vec3::UnitY()));
+                if (k > 1) solids.push_back(makeSolid(makeCylinder({0, 0, -0.4}, {0, 0, 0.4}, 0.25 * h), solids[0].pose.position - Vec3(0.5 * d + 0.25 * h + by, 0, 0), Solid::Kind::Free));
+                // its edges away from the bars: docs/numerics, 3.3, Limits
+                const Vec3 beside = 0.5 * (solids[0].pose.position + solids[1].pose.position) - Vec3(0.5 * d + by, 0, 0);
+                if (k > 2 && dim == 2) solids.push_back(makeSolid(makeBox(Vec3::Zero(), {0.5, 6.3 * h, 1}), beside - Vec3(0.25, 0, 0), Solid::Kind::Free));
+                if (k > 2 && dim == 3) solids.push_back(makeSolid(makeSphere(Vec3::Zero(), 0.4), beside - Vec3(0.2, 0, 0), Solid::Kind::Free));
+                for (std::size_t s = 2; s < solids.size(); ++s) solids[s].pose.orientation = solids[0].pose.orientation;
+                const Cover& cover = builder.buildExactVolume(solids);
+                largest = std::max(largest, largestHole(scene, cover, h));
+                const double area = isRound ? M_PI * 0.25 * d * d : 0.8 * d * d;
+                for (int s = 0; s < 2; ++s)
+                {
+                    CHECK(solids[s].isThin);
+                    if (isUpright && k < 2) CHECK(cover.solidVolume[s] == near(area * (dim == 2 ? 1 : 2), 1e-10));
+                }
+                // the same beside what has moved meanwhile, but for what is moved by its volume
+                const std::vector<double> volumes = cover.solidVolume;
+                std::vector<Solid> moved = solids;
+                for (Solid& solid : moved) solid.pose.position.x() += solid.kind == Solid::Kind::Free ? -0.01 : 0;
+                largest = std::max(largest, largestHole(scene, builder.buildExactVolume(moved), h));
+                const Cover& again = builder.buildExactVolume(solids);
+                for (std::size_t s = 0; s < volumes.size() && (k < 3 || dim == 2); ++s) CHECK(again.solidVolume[s] == volumes[s]);
+            }
+    }
+    std::printf("thin structures: holes of %.1e\n", largest);
+    CHECK(largest < 1e-9);
+}
