@@ -2,6 +2,7 @@
 #include "foam/boundaryConditions.H"
 #include "foam/dictionaryChecks.H"
 #include "foam/faceValues.H"
+#include "foam/innerPoints.H"
 
 #include "equations/materials.hpp"
 
@@ -269,9 +270,10 @@ PhaseCondition variableHeightPhase(const ConditionInput& in)
 {
     const double lower = readNumber(in.dict, "lowerBound", {-1, 1}), upper = readNumber(in.dict, "upperBound", {0, 2});
     if (lower >= upper) failIn(in.dict, text("lowerBound ", lower, " must be below upperBound ", upper, "."));
-    return {Phase::Inflow, [n = in.nodes, &halo = in.halo, lower, upper](const BoundaryState& state, std::vector<double>& out)
+    const auto inside = std::make_shared<const InnerPoints>(*in.nodes);
+    return {Phase::Inflow, [n = in.nodes, inside, &halo = in.halo, lower, upper](const BoundaryState& state, std::vector<double>& out)
     {
-        out = n->insideValues(halo, state.alpha);
+        out = inside->values(halo, state.alpha);
         for (double& a : out) a = a < lower ? 0.0 : a > upper ? 1.0 : a;
     }};
 }

@@ -62,41 +62,6 @@ double faceOutflow(const PatchNodes& patch, std::size_t f, const std::vector<dou
     return sum;
 }
 
-/// inwards: per node of the patch. An element holds the line if no shape function of its other corners falls along it; round-off decides where it runs in a face.
-std::vector<PatchNodes::InnerPoint> innerPointsOf(const SimplexMesh& mesh, const std::vector<int>& nodes, const std::vector<double>& outwards)
-{
-    const int dim = mesh.dim, corners = dim + 1;
-    std::vector<PatchNodes::InnerPoint> points(nodes.size(), {{0, 0, 0}, {0, 0, 0}});
-    std::vector<double> least(nodes.size(), -1e300);
-    for (int e = 0; e < mesh.nElements; ++e)
-        for (int k = 0; k < corners; ++k)
-        {
-            const int node = mesh.elements[std::size_t(e)*corners + k];
-            const auto at = std::lower_bound(nodes.begin(), nodes.end(), node);
-            if (at == nodes.end() || *at != node) continue;
-            const std::size_t p = at - nodes.begin();
-            double rise[4], smallest = 1e300, sum = 0;
-            for (int l = 0; l < corners; ++l)
-            {
-                rise[l] = 0;
-                for (int d = 0; d < dim; ++d) rise[l] -= mesh.gradN[(std::size_t(e)*corners + l)*dim + d]*outwards[p*dim + d];
-                if (l == k) continue;
-                smallest = std::min(smallest, rise[l]);
-                rise[l] = std::max(0.0, rise[l]);
-                sum += rise[l];
-            }
-            if (smallest <= least[p] || sum == 0) continue;
-            least[p] = smallest;
-            for (int l = 0, n = 0; l < corners; ++l)
-            {
-                if (l == k) continue;
-                points[p].nodes[n] = mesh.elements[std::size_t(e)*corners + l];
-                points[p].weights[n++] = rise[l]/sum;
-            }
-        }
-    return points;
-}
-
 } // namespace
 
 PatchNodes makePatchNodes(const SimplexMesh& mesh, const Halo& halo, const MeshPatch& patch)
@@ -105,7 +70,6 @@ PatchNodes makePatchNodes(const SimplexMesh& mesh, const Halo& halo, const MeshP
     result.mesh = &mesh;
     result.nodes = nodesOf(mesh, halo, patch);
     result.normal = normalsOf(mesh, halo, patch, result.nodes);
-    result.innerPoints = innerPointsOf(mesh, result.nodes, result.normal);
     for (std::size_t f = 0; f < patch.faceElement.size(); ++f)
     {
         int corners[3];
@@ -118,17 +82,6 @@ PatchNodes makePatchNodes(const SimplexMesh& mesh, const Halo& halo, const MeshP
         outwardVector(mesh, patch, f, a);
         for (int d = 0; d < mesh.dim; ++d) result.faceArea.push_back(a[d]*(mesh.dim == 2 ? mesh.thickness : 1.0));
     }
-    return result;
-}
-
-std::vector<double> PatchNodes::insideValues(const Halo& halo, const double* values) const
-{
-    std::vector<double> inside(mesh->nNodes, 0.0);
-    for (std::size_t k = 0; k < nodes.size(); ++k)
-        for (int l = 0; l < mesh->dim; ++l) inside[nodes[k]] += innerPoints[k].weights[l]*values[innerPoints[k].nodes[l]];
-    halo.update(inside, 1);
-    std::vector<double> result;
-    for (int i : nodes) result.push_back(inside[i]);
     return result;
 }
 
