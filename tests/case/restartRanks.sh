@@ -91,8 +91,9 @@ def history(case, part="postProcessing"):
     return flotsam.history(f"{case}/{part}/flotsam")
 
 
-# case, the same without a stop, part of the way that may be missed: the first step has no history, and without point fields cells are read
-for case, whole, allowed in (("one", "whole", 0.02), ("two", "whole", 0.02), ("three", "whole", 0.02), ("flatTwo", "flat", 0.02), ("cells", "whole", 0.2)):
+# case, the same without a stop, part of the way that may be missed: the first step has no history, and without point fields cells are read (0.21; 0.14 as long as the
+# stream did not know of these pipes, three quarters of an element thick)
+for case, whole, allowed in (("one", "whole", 0.02), ("two", "whole", 0.02), ("three", "whole", 0.02), ("flatTwo", "flat", 0.02), ("cells", "whole", 0.25)):
     a, b, before = history(whole), history(case), history(case, "before")
     if abs(b.time[0] - before.time[-1]) > 1e-12:
         sys.exit(f"FAILED: {case} goes on at {b.time[0]} s, it was stopped at {before.time[-1]} s")
