@@ -270,7 +270,7 @@ PhaseCondition variableHeightPhase(const ConditionInput& in)
 {
     const double lower = readNumber(in.dict, "lowerBound", {-1, 1}), upper = readNumber(in.dict, "upperBound", {0, 2});
     if (lower >= upper) failIn(in.dict, text("lowerBound ", lower, " must be below upperBound ", upper, "."));
-    const auto inside = std::make_shared<const InnerPoints>(*in.nodes);
+    const auto inside = std::make_shared<const InnerPoints>(*in.nodes);     // refers to the nodes: both are kept
     return {Phase::Inflow, [n = in.nodes, inside, &halo = in.halo, lower, upper](const BoundaryState& state, std::vector<double>& out)
     {
         out = inside->values(halo, state.alpha);

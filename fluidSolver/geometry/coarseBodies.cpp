@@ -74,7 +74,8 @@ void CoverBuilder::chooseThin(std::vector<Solid>& solids)
     for (std::size_t k = 0; k < candidates.size(); ++k)
     {
         Solid& solid = solids[candidates[k]];
-        solid.isThin = thickness(solid) * lengths[2 * k] < resolvedThickness * lengths[2 * k + 1] && (solid.kind == Solid::Kind::Fixed || isSharp(solid)); // what one at rest covers of the boundary does not change
+        const bool maySlideOut = solid.kind != Solid::Kind::Fixed; // what one at rest covers of the boundary does not change
+        solid.isThin = thickness(solid) * lengths[2 * k] < resolvedThickness * lengths[2 * k + 1] && (!maySlideOut || isSharp(solid));
         solid.planeFaces = solid.isThin ? facesOfRound(solid.shape) : nullptr;
         if (!solid.isThin) continue;
         solid.offset = 0; // their volume is exact
