@@ -25,6 +25,7 @@ struct BoundaryState
     const double* alpha;    ///< nNodes
     const double* solidDistance = nullptr;  ///< nNodes, negative inside; null: no solids [m]
     const double* entering = nullptr;       ///< per node of the patch: phase field of what enters, PatchValues::alpha of the same time; null: that of the nodes
+    double liquidInflow = 0;                ///< that the velocity of the patch is made of, where the level floats [m^3/s]
 };
 
 struct BoundaryPatch

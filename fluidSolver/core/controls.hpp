@@ -49,6 +49,7 @@ struct NumericsControls
     bool balancedGravity = true;    ///< false: rho_e g
     int gravityLayers = 6;          ///< rings over which interface planes are handed on at least
     int gasDepth = 0;               ///< rings of elements around the water in which the gas is computed; 0: everywhere
+    bool criticalInlet = true;      ///< a level that floats at an inlet does not fall below the critical one of its discharge
     // linear solver
     double tolerance = 3e-5;        ///< residual of the scaled system over its right-hand side
     double forceTolerance = 1e-4;   ///< with solids: the same over the forces that change the motion

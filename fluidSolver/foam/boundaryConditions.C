@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam/boundaryConditions.H"
+#include "foam/criticalLevel.H"
 #include "foam/dictionaryChecks.H"
 #include "foam/faceValues.H"
 #include "foam/innerPoints.H"
@@ -96,7 +97,7 @@ NodalValues uniformScalars(const ConditionInput& in, const char* keyword)
 
 // ---- velocity
 
-VelocityCondition fixedVelocity(NodalValues values) { return {BoundaryPatch::Velocity::Fixed, std::move(values)}; }
+VelocityCondition fixedVelocity(NodalValues values) { return {BoundaryPatch::Velocity::Fixed, std::move(values), {}}; }
 
 VelocityCondition noSlip(const ConditionInput& in)
 {
@@ -118,8 +119,8 @@ VelocityCondition uniformVelocity(const ConditionInput& in)
     });
 }
 
-VelocityCondition slip(const ConditionInput&) { return {BoundaryPatch::Velocity::Slip, {}}; }
-VelocityCondition open(const ConditionInput&) { return {BoundaryPatch::Velocity::Open, {}}; }
+VelocityCondition slip(const ConditionInput&) { return {BoundaryPatch::Velocity::Slip, {}, {}}; }
+VelocityCondition open(const ConditionInput&) { return {BoundaryPatch::Velocity::Open, {}, {}}; }
 
 /// Normal inflow `flow` through what solids leave of the patch, split over the nodes as `weight`; of the P1 flux `share` counts, as it does for the transport.
 void distributeFlow(const PatchNodes& patch, const Halo& halo, double flow, const std::vector<double>& weight, const std::vector<double>& share,
@@ -166,13 +167,15 @@ VelocityCondition variableHeightVelocity(const ConditionInput& in)
     if (in.controls.alphaName.empty()) failIn(in.dict, "variableHeightFlowRateInletVelocity needs two fluids; use flowRateInletVelocity.");
     if (alpha != in.controls.alphaName)
         failIn(in.dict, text("Entry 'alpha' is ", alpha, "; the phase field of this case is ", in.controls.alphaName, "."));
-    return fixedVelocity([f = timeFunction<scalar>(in.dict, "flowRate"), n = in.nodes, &halo = in.halo, name = in.patch.name()](
-        const BoundaryState& state, std::vector<double>& out)
+    const auto flow = [f = timeFunction<scalar>(in.dict, "flowRate")](double time) { return f->value(time); };
+    VelocityCondition condition = fixedVelocity([flow, n = in.nodes, &halo = in.halo, name = in.patch.name()](const BoundaryState& state, std::vector<double>& out)
     {
         std::vector<double> liquid; // the surface's nodes let gas in as well: what counts is the liquid
         for (std::size_t k = 0; k < n->nodes.size(); ++k) liquid.push_back(std::clamp(state.entering ? state.entering[k] : state.alpha[n->nodes[k]], 0.0, 1.0));
-        distributeFlow(*n, halo, f->value(state.time), shareOfVelocity(*n, halo, liquid), liquid, state.solidDistance, name, out);
+        distributeFlow(*n, halo, flow(state.time), shareOfVelocity(*n, halo, liquid), liquid, state.solidDistance, name, out);
     });
+    condition.liquidInflow = flow;
+    return condition;
 }
 
 VelocityCondition pressureVelocity(const ConditionInput& in)
@@ -265,16 +268,23 @@ PhaseCondition uniformPhase(const ConditionInput& in) { return {Phase::Inflow, u
 PhaseCondition uniformInletOutletPhase(const ConditionInput& in) { return {Phase::Inflow, uniformScalars(in, "uniformInletValue")}; }
 
 /// The phase an element inside the patch enters, values below/above the bounds as pure gas/liquid: the water level at the inlet is that of the stream inside. With the phase
-/// of the patch's own nodes nothing would bring it back: they have no velocity along the patch by which the stream could raise or lower it.
+/// of the patch's own nodes nothing would bring it back: they have no velocity along the patch by which the stream could raise or lower it. Not below the critical level of the flow
+/// rate that enters: a faster stream knows nothing of the level inside, and would draw down for good.
 PhaseCondition variableHeightPhase(const ConditionInput& in)
 {
     const double lower = readNumber(in.dict, "lowerBound", {-1, 1}), upper = readNumber(in.dict, "upperBound", {0, 2});
     if (lower >= upper) failIn(in.dict, text("lowerBound ", lower, " must be below upperBound ", upper, "."));
     const auto inside = std::make_shared<const InnerPoints>(*in.nodes);     // refers to the nodes: both are kept
-    return {Phase::Inflow, [n = in.nodes, inside, &halo = in.halo, lower, upper](const BoundaryState& state, std::vector<double>& out)
+    const auto critical = in.controls.numerics.criticalInlet ? std::make_shared<const CriticalLevel>(*in.nodes, in.halo, in.controls.fluid.gravity) : nullptr;
+    return {Phase::Inflow, [n = in.nodes, inside, critical, &halo = in.halo, lower, upper, name = in.patch.name(), isSaid = std::make_shared<bool>(false)](
+        const BoundaryState& state, std::vector<double>& out)
     {
         out = inside->values(halo, state.alpha);
         for (double& a : out) a = a < lower ? 0.0 : a > upper ? 1.0 : a;
+        if (!critical || !critical->raise(state.liquidInflow, state.solidDistance, out) || *isSaid) return;
+        *isSaid = true;
+        Foam::Info << "Patch " << name << ": the stream inside is lower than the critical level of the " << state.liquidInflow << " m^3/s that enter, from " << state.time
+            << " s on at least: they enter at that level. For a lower, faster stream: entry criticalInlet off, or its level as fixedValue (docs/dictionaries.md, Inflow)." << Foam::endl;
     }};
 }
 

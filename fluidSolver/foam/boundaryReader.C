@@ -71,14 +71,15 @@ void checkCombination(const BoundaryPatch& patch, const Foam::dictionary& veloci
 }
 
 /// All conditions of a patch sit behind one function: values of the three fields. The phase first: flow rates of the liquid depend on what enters.
-std::function<void(const BoundaryState&, PatchValues&)> evaluator(NodalValues velocity, NodalValues pressure, NodalValues phase)
+std::function<void(const BoundaryState&, PatchValues&)> evaluator(const VelocityCondition& velocity, NodalValues pressure, NodalValues phase)
 {
     return [=](const BoundaryState& state, PatchValues& values)
     {
-        phase ? phase(state, values.alpha) : values.alpha.clear();
-        BoundaryState withPhase = state;
-        withPhase.entering = phase ? values.alpha.data() : nullptr;
-        velocity ? velocity(withPhase, values.velocity) : values.velocity.clear();
+        BoundaryState known = state;
+        known.liquidInflow = velocity.liquidInflow ? velocity.liquidInflow(state.time) : 0;
+        phase ? phase(known, values.alpha) : values.alpha.clear();
+        known.entering = phase ? values.alpha.data() : nullptr;
+        velocity.values ? velocity.values(known, values.velocity) : values.velocity.clear();
         pressure ? pressure(state, values.pressure) : values.pressure.clear();
     };
 }
@@ -182,7 +183,7 @@ std::vector<BoundaryPatch> readBoundary(const Foam::polyMesh& mesh, const MeshAd
         out.pressure = p.kind;
         out.phase = a.kind;
         out.nodes = sources[i].nodes->nodes;
-        out.evaluate = evaluator(u.values, p.values, a.values);
+        out.evaluate = evaluator(u, p.values, a.values);
         checkCombination(out, velocity.patch(patch), pressure.patch(patch), pressureName);
         result.push_back(std::move(out));
     }

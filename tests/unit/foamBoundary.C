@@ -224,8 +224,36 @@ TEST_CASE("flow rate of the liquid that enters; one layer above it moves with it
     }
     for (int i = 0; i < s.adapter.mesh.nNodes; ++i) s.alpha[i] = std::clamp(5.2*(0.6 - s.adapter.mesh.x[2*i + 1]), 0.0, 1.0);
     CHECK(s.liquidInflow(s.values("inlet", 5)) == near(0.02, 1e-14));    // whatever gas the surface's nodes let in
-    std::fill(s.alpha.begin(), s.alpha.end(), 0.0);
-    if (isSerial()) CHECK(has(messageOf([&] { s.values("inlet"); }), "hold no liquid"));
+    if (!isSerial()) return;
+    Scene dry(Edits{{"0/U", inletU, "type variableHeightFlowRateInletVelocity; flowRate 0.01;"}, {"0/alpha.water", "type variableHeightFlowRate; lowerBound 0.1; upperBound 0.9;", "type fixedValue;"}});
+    CHECK(has(messageOf([&] { dry.values("inlet"); }), "hold no liquid"));
+}
+
+// Of a rectangle with its bed at 0 or 0.35 m: depth (q^2/g)^(1/3), speed (q g)^(1/3); 6 or 10 elements over the patch.
+TEST_CASE("an inlet whose level floats does not fall below the critical one")
+{
+    for (const std::string mesh : {"blockMeshDict", "blockMeshDict3d"})
+        for (const double depth : {0.21, 0.3, 0.56})
+            for (const double bed : {0.0, 0.35})
+            {
+                if (mesh == "blockMeshDict3d" && !isSerial()) continue;
+                constexpr double gravity = 10;
+                const double width = mesh == "blockMeshDict3d" ? 0.4 : 0.1, speed = std::sqrt(gravity*depth);
+                Edits edits = mesh == "blockMeshDict3d" ? FaceScene::inSpace() : Edits{inletOnTwoRanks};
+                edits.push_back({"0/U", inletU, "type variableHeightFlowRateInletVelocity; alpha alpha.water; flowRate " + std::to_string(speed*depth*width) + "; value uniform (0 0 0);"});
+                Scene s(edits, mesh);
+                const int dim = s.adapter.mesh.dim;
+                std::fill(s.alpha.begin(), s.alpha.end(), 0.0);
+                for (int i = 0; bed > 0 && i < s.adapter.mesh.nNodes; ++i) s.distance.push_back(s.adapter.mesh.x[dim*i + 1] - bed);
+                const PatchValues v = s.values("inlet");
+                double fastest = 0;
+                for (std::size_t k = 0; k < v.velocity.size(); k += dim) fastest = std::max(fastest, v.velocity[k]);
+                CHECK(s.halo.max(fastest) == near(speed, bed > 0 ? 0.03 : 0.005));
+                for (int i = 0; i < s.adapter.mesh.nNodes; ++i) s.alpha[i] = s.adapter.mesh.x[dim*i + 1] < bed + depth + 0.15;
+                const PatchValues deep = s.values("inlet");
+                const auto& inlet = s.patch("inlet");
+                for (std::size_t k = 0; k < inlet.nodes.size(); ++k) CHECK(deep.alpha[k] == within(s.adapter.mesh.x[dim*inlet.nodes[k] + 1] < bed + depth + 0.15, 1e-12));
+            }
 }
 
 TEST_CASE("a flow rate enters above what covers the lower part of the patch")

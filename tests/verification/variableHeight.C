@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// A stream whose level at the inlet floats (variableHeightFlowRate, variableHeightFlowRateInletVelocity): it stays as uniform as it begins, and rises with what dams it
-/// (docs/numerics/2-momentum.md, 2.8).
+/// A stream whose level at the inlet floats (variableHeightFlowRate, variableHeightFlowRateInletVelocity): it stays as uniform as it begins, rises with what dams it, and does not fall
+/// below its critical depth (docs/numerics/2-momentum.md, 2.8).
 #include "equations/fluid.hpp"
 #include "foam/boundaryReader.H"
 #include "geometry/coverBuilder.hpp"
@@ -21,23 +21,25 @@ namespace
 
 constexpr double gravity = 10, depth = 0.55, speed = 1, thickness = 0.1, cell = 0.05;   // of the channel in tests/cases/foamChannel, 2 x 1 m; Froude number 0.43
 
-std::vector<FoamCase::Edit> streamCase()
+std::vector<FoamCase::Edit> streamCase(const std::vector<FoamCase::Edit>& more)
 {
-    return {{"system/blockMeshDict", "(20 10 1)", "(40 20 1)"}, {"system/decomposeParDict", "n (2 1 1)", "n (1 2 1)"},
+    std::vector<FoamCase::Edit> edits{{"system/blockMeshDict", "(20 10 1)", "(40 20 1)"}, {"system/decomposeParDict", "n (2 1 1)", "n (1 2 1)"},
         {"system/fvSolution", "flotsam { timeOrder 1; dualCellTransport off; tolerance 1e-7; }", "flotsam {}"}, {"constant/hRef", "value 0", "value 0.55"},
         {"0/U", "type flowRateInletVelocity; volumetricFlowRate constant 0.05;", "type variableHeightFlowRateInletVelocity; alpha alpha.water; flowRate 0.055;"},
         {"0/U", "outlet { type zeroGradient; }", "outlet { type pressureInletOutletVelocity; value uniform (0 0 0); }"}, {"0/U", "floor { type noSlip; }", "floor { type slip; }"},
         {"0/p_rgh", "outlet { type fixedValue; value uniform 7; }", "outlet { type fixedValue; value uniform 0; }"}, {"0/p_rgh", "p0 uniform 3", "p0 uniform 0"},
         {"0/alpha.water", "lowerBound 0.1; upperBound 0.9", "lowerBound 0; upperBound 0.99"},
         {"0/alpha.water", "outlet { type zeroGradient; }", "outlet { type inletOutlet; inletValue uniform 0; value uniform 0; }"}};
+    edits.insert(edits.end(), more.begin(), more.end());
+    return edits;
 }
 
 class Stream
 {
 public:
     /// sill: height of a broad-crested one across the bed [m], 0: none.
-    explicit Stream(double sill)
-    :   foam_("foamChannel", streamCase()), controls_(readCaseControls(foam_.time())), adapter_(makeSimplexMesh(foam_.mesh(), MPI_COMM_WORLD)), halo_(adapter_.mesh, MPI_COMM_WORLD),
+    explicit Stream(double sill, const std::vector<FoamCase::Edit>& edits = {})
+    :   foam_("foamChannel", streamCase(edits)), controls_(readCaseControls(foam_.time())), adapter_(makeSimplexMesh(foam_.mesh(), MPI_COMM_WORLD)), halo_(adapter_.mesh, MPI_COMM_WORLD),
         graph_(adapter_.mesh), builder_(adapter_.mesh, graph_, halo_),
         fluid_(adapter_.mesh, halo_, controls_.fluid, controls_.numerics, readBoundary(foam_.mesh(), adapter_, halo_, controls_))
     {
@@ -136,4 +138,18 @@ TEST_CASE("the level at the inlet rises with the water that a sill holds back")
     CHECK(measured == near(head, 0.03));
     CHECK(most - least < 0.03*mean);
     CHECK(stream.entered == near(12*discharge*thickness, 1e-3));
+}
+
+// Without a bound the level at the inlet falls for good: nothing from inside reaches a stream that is faster than its waves (0.22 m after these times).
+TEST_CASE("on a steep bed a stream enters at its critical depth")
+{
+    usePetsc();
+    constexpr double slope = 0.1, discharge = depth*speed;
+    Stream stream(0, {{"constant/g", "value (0 -10 0)", "value (1 -10 0)"}, {"constant/hRef", "value 0.55", "value 0"}, {"0/p_rgh", "outlet { type fixedValue; value uniform 0; }", "outlet { type prghTotalPressure; p0 uniform 0; value uniform 0; }"}});
+    stream.advance(10);
+    const double critical = std::cbrt(discharge*discharge/gravity), x = 1.5, h = stream.depthAt(x), head = h + discharge*discharge/(2*gravity*h*h);
+    MESSAGE("depth at the inlet ", stream.depthAt(0), " m, critical ", critical, "; ", x, " m behind it ", h, ", head ", head, ", of the inlet ", 1.5*critical + slope*x);
+    CHECK(stream.depthAt(0) == near(critical, 0.02));
+    CHECK(head == near(1.5*critical + slope*x, 0.07));    // four elements over the depth
+    CHECK(stream.entered == near(10*discharge*thickness, 1e-3));
 }
