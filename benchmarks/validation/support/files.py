@@ -124,6 +124,11 @@ def gravity(x=0, y=0, z=0):
     return {"constant/g": dictionary("g", f"dimensions [0 1 -2 0 0 0 0];\nvalue ({x:.12g} {y:.12g} {z:.12g});", "uniformDimensionedVectorField")}
 
 
+def referenceHeight(level):
+    """constant/hRef: p_rgh is zero in a liquid at rest up to this level."""
+    return {"constant/hRef": dictionary("hRef", f"dimensions [0 1 0 0 0 0 0];\nvalue {level:.9g};", "uniformDimensionedScalarField")}
+
+
 def bodies(text):
     return {"constant/bodies": dictionary("bodies", text)}
 
