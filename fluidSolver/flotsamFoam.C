@@ -52,6 +52,7 @@ SceneCounts countScene(const BodiesInput& input)
         counts.bodiesToCome += b.entersAtRelease;
         counts.demSpheres += long(b.spheres.size());
     }
+    for (const MoverDefinition& m : input.movers) counts.demSpheres += long(m.spheres.size());
     counts.walls = int(input.walls.size());
     return counts;
 }
@@ -71,11 +72,13 @@ void checkEntries(const BodiesInput& input, const FluidProperties& fluid)
                 " it could come in: the case has one fluid. Use 'beforeRelease held', or two fluids");
 }
 
-DemSetup makeDemSetup(const BodiesInput& input, double timeStep)
+DemSetup makeDemSetup(const BodiesInput& input, double timeStep, double startTime)
 {
     DemSetup setup;
     setup.bodies = input.bodies;
     setup.walls = input.walls;
+    setup.movers = input.movers;
+    setup.startTime = startTime;
     setup.nMaterials = int(input.materials.size());
     setup.laws = input.laws;
     setup.box = input.box;
@@ -174,12 +177,17 @@ void start(CoupledStep& step, RunOutput& output, const FoamFields& fields, Foam:
     runTime.setTime(step.fluid().state().time, runTime.timeIndex()); // OpenFOAM has it from the folder's name
 }
 
-void checkTimeStep(double wanted, const TimeControls& time, const CoupledStep& step)
+/// limit: word of nextTimeStep().
+void checkTimeStep(double wanted, const std::string& limit, const TimeControls& time, const CoupledStep& step)
 {
-    if (wanted < time.minDeltaT)
-        throw std::runtime_error(text("the flow limits the time step to ", wanted, " s at t = ", step.fluid().state().time, " s, below minDeltaT of system/controlDict, ",
-            time.minDeltaT, " s: ", step.fluid().describeFastest(), ". The solution has become unstable there: look at the last written fields,"
-            " reduce maxCo, or refine the mesh"));
+    if (wanted >= time.minDeltaT) return;
+    const std::string begin = text("the time step falls to ", wanted, " s at t = ", step.fluid().state().time, " s, below minDeltaT of system/controlDict, ", time.minDeltaT, " s: ");
+    const auto [solid, speed] = step.scene().fastest();
+    if (limit == "body")
+        throw std::runtime_error(text(begin, "the surface of ", solid, " moves with ", speed, " m/s, and it may go maxBodyCo ", time.maxBodyCo,
+            " elements in a step. Is that speed meant? Then give a smaller minDeltaT, or a larger maxBodyCo"));
+    throw std::runtime_error(text(begin, step.fluid().describeFastest(), ". The solution has become unstable there: look at the last written fields,"
+        " reduce maxCo, or refine the mesh"));
 }
 
 /// After a step: the fields where someone looks at them, and at a written time the state to restart from. A stop signal makes it the last step.
@@ -233,7 +241,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     if (task == Task::WeighCells) weighCells(mesh, adapter, halo, bodies);
     if (task != Task::Run) return true;
 
-    const DemSetup dem = makeDemSetup(bodies, controls.numerics.demTimeStep);
+    const DemSetup dem = makeDemSetup(bodies, controls.numerics.demTimeStep, runTime.value());
     CoupledStep step(adapter.mesh, halo, controls.fluid, controls.numerics, boundary, makeScene(bodies, gravity),
         bodies.bodies.empty() ? nullptr : &dem, timers);
     RunOutput output(runTime, adapter.mesh, halo, bodies, timers);
@@ -255,7 +263,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         updateTimeControls(runTime, time);
         const CourantNumbers rates = courantRates(step);
         auto [wanted, limit] = nextTimeStep(rates.largest, rates.bodies, time, dt);
-        checkTimeStep(wanted, time, step);
+        checkTimeStep(wanted, limit, time, step);
         double used = writeTimes.setStep(wanted);
         if (used < 0.999*wanted) limit = "write";
         const double before = used;

@@ -5,6 +5,7 @@
 #include "geometry/solid.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -52,7 +53,16 @@ inline double outerRadius(const BodyDefinition& body)
     return radius;
 }
 
-/// A structure the bodies can touch. Fixed, or moving as prescribed (then only spheres/planes as the engine can).
+/// A structure that moves as prescribed, which bodies can touch.
+struct MoverDefinition
+{
+    std::string name;
+    std::vector<SurfaceSphere> spheres;     ///< DEM surface, in the frame of the pose
+    int material = 0;
+    std::function<void(double time, Pose&, Motion&)> motion;    ///< time in s
+};
+
+/// A fixed structure the bodies can touch.
 struct WallDefinition
 {
     enum class Kind { Plane, Surface };

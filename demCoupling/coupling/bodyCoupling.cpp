@@ -58,9 +58,9 @@ BodyCoupling::BodyCoupling(const DemSetup& setup, const CouplingControls& contro
     newContact_.resize(n);
     contact_.resize(n);
     smoothing_.resize(n);
-    touch_.wallLoads.resize(setup.walls.size());
+    touch_.wallLoads.resize(nWalls());
     touch_.counts.assign(n, 0);
-    touch_.wallCounts.assign(setup.walls.size(), 0);
+    touch_.wallCounts.assign(nWalls(), 0);
     isJustReleased_.assign(n, 0);
     for (const BodyDefinition& body : setup.bodies)
     {
@@ -178,9 +178,24 @@ void BodyCoupling::begin(double time, double dt, double far)
     for (int b = 0; b < nBodies(); ++b) held[b] = !isDue(b, time) || !isThere(b);
     isAtStart_ = true;
     hold(held);
+    moveTo(time + dt);
     guarded([&] { saved_ = engine_->save(); });
     for (int b = 0; b < nBodies(); ++b) predicted_[b] = isHeld_[b] ? states_[b] : drifted(b);
     if (!check_.strayBody(states_, predicted_, far).empty()) predictContacts();
+}
+
+/// What moves as prescribed, in the coming step.
+void BodyCoupling::moveTo(double time)
+{
+    if (setup_.movers.empty()) return;
+    std::vector<Pose> poses;
+    for (const MoverDefinition& mover : setup_.movers)
+    {
+        poses.emplace_back();
+        Motion motion;
+        mover.motion(time, poses.back(), motion);
+    }
+    guarded([&] { engine_->moveTo(poses, dt_); });
 }
 
 /// Bodies that touch something on their way end where the engine puts them with the last fluid loads.
@@ -346,7 +361,7 @@ std::vector<double> BodyCoupling::save() const
 
 void BodyCoupling::restore(const std::vector<double>& data)
 {
-    const std::size_t tail = (3*6 + 2 + SmoothMotion::perBody + 3)*setup_.bodies.size() + perWall*setup_.walls.size() + 1;
+    const std::size_t tail = (3*6 + 2 + SmoothMotion::perBody + 3)*setup_.bodies.size() + std::size_t(perWall)*nWalls() + 1;
     if (data.size() < tail) throw std::runtime_error("restart: the stored state of the bodies is too short for this case");
     const double* at = data.data() + data.size() - tail;
     std::vector<Load> guess(lastLoads_.size());

@@ -51,8 +51,7 @@ public:
 
     int nBodies() const { return int(setup_.bodies.size()); }
     const BodyDefinition& definition(int body) const { return setup_.bodies[body]; }
-    const WallDefinition& wall(int w) const { return setup_.walls[w]; }
-    int nWalls() const { return int(setup_.walls.size()); }
+    int nWalls() const { return int(setup_.walls.size() + setup_.movers.size()); }   ///< the movers come behind the walls
 
     const std::vector<BodyState>& states() const { return states_; }        ///< at t^n (after accept(): the new time)
     const std::vector<BodyState>& predicted() const { return predicted_; }  ///< at t^(n+1), pose to cut with
@@ -96,6 +95,7 @@ private:
     BodyState drifted(int body) const;
     void predictContacts();
     void hold(const std::vector<char>& isHeld);
+    void moveTo(double time);
     void guarded(const std::function<void()>& work) const;
 
     DemSetup setup_;

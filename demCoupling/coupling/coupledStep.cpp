@@ -219,7 +219,7 @@ double CoupledStep::smallestCutElement() const
 
 double CoupledStep::bodyCourantRate() const
 {
-    const double speed = scene_.largestSpeed();
+    const double speed = scene_.fastest().second;
     if (speed == 0) return 0;
     return speed/smallestCutElement();
 }

@@ -81,13 +81,16 @@ std::vector<FreeBody> Scene::freeBodies(const BodyCoupling& coupling, double new
     return result;
 }
 
-double Scene::largestSpeed() const
+std::pair<std::string, double> Scene::fastest() const
 {
-    double speed = 0;
+    std::pair<std::string, double> result{"", 0};
     for (std::size_t s = 0; s < solids_.size(); ++s)
-        if (solids_[s].kind != Solid::Kind::Fixed)
-            speed = std::max(speed, solids_[s].motion.velocity.norm() + radius_[s]*solids_[s].motion.angularVelocity.norm());
-    return speed;
+    {
+        if (solids_[s].kind == Solid::Kind::Fixed) continue;
+        const double speed = solids_[s].motion.velocity.norm() + radius_[s]*solids_[s].motion.angularVelocity.norm();
+        if (speed > result.second) result = {solids_[s].name, speed};
+    }
+    return result;
 }
 
 std::vector<double> Scene::save() const

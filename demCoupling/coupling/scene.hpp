@@ -7,6 +7,8 @@
 #include "equations/flowEquation.hpp"
 
 #include <functional>
+#include <string>
+#include <utility>
 
 namespace flotsam
 {
@@ -54,8 +56,8 @@ public:
         return loads;
     }
 
-    /// Largest surface speed of the moving solids [m/s].
-    double largestSpeed() const;
+    /// Of the moving solids the one with the fastest surface: its name and that speed [m/s]; nothing and 0 without one.
+    std::pair<std::string, double> fastest() const;
 
     /// Poses, motions and offsets of all solids as numbers, and back (checkpoint).
     std::vector<double> save() const;

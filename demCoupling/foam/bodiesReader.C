@@ -3,6 +3,7 @@
 #include "demCoupling/foam/bodyGroup.H"
 #include "demCoupling/foam/contactReader.H"
 #include "demCoupling/foam/meshWalls.H"
+#include "demCoupling/foam/movingStructures.H"
 #include "demCoupling/foam/repeatedGroups.hpp"
 #include "demCoupling/foam/structureChecks.H"
 #include "foam/dictionaryChecks.H"
@@ -30,7 +31,7 @@ Solid::Wall readWallKind(const Foam::dictionary& dict)
 
 void readStructureGroup(const std::string& name, const Foam::dictionary& dict, const SceneFrame& frame, BodiesInput& input)
 {
-    checkKeywords(dict, {"shape", "material", "wall", "position", "orientation", "array", "motion", "contact", "facetSize"});
+    checkKeywords(dict, {"shape", "material", "wall", "position", "orientation", "array", "motion", "contact", "facetSize", "spheres"});
     const auto shape = readShape(dict.subDict("shape"), frame.stlFolder);
     const Pose first = readPose(dict);
     const double facetSize = readNumberOr(dict, "facetSize", 0.25*thinnestExtent(*shape, frame), positive);
@@ -51,6 +52,7 @@ void readStructureGroup(const std::string& name, const Foam::dictionary& dict, c
         s.motion = readMotion(dict, s.solid.pose);
         s.solid.kind = s.motion ? Solid::Kind::Prescribed : Solid::Kind::Fixed;
         if (s.motion) s.motion(0, s.solid.pose, s.solid.motion);
+        readContactSpheres(dict, frame, s);
         input.structures.push_back(std::move(s));
     }
 }
@@ -110,14 +112,11 @@ TriSurface inSpace(TriSurface surface, const Pose& pose)
     return surface;
 }
 
-void addStructureWalls(const Foam::dictionary& dict, BodiesInput& input)
+void addStructureWalls(BodiesInput& input)
 {
     for (StructureDefinition& s : input.structures)
     {
-        if (s.wall < 0) continue;
-        if (s.motion)
-            failIn(dict.subDict("structures").subDict(s.group), text("Structure ", s.group, " moves, and there are bodies: contact with moving structures "
-                "is not modelled.\n    Set 'contact off;' in it if the bodies do not reach it, or remove 'motion'."));
+        if (s.wall < 0 || s.motion) continue;
         WallDefinition wall;
         wall.name = s.solid.name;
         wall.kind = WallDefinition::Kind::Surface;
@@ -125,6 +124,18 @@ void addStructureWalls(const Foam::dictionary& dict, BodiesInput& input)
         wall.material = s.material;
         s.wall = static_cast<int>(input.walls.size());
         input.walls.push_back(std::move(wall));
+    }
+}
+
+void addMovers(const Foam::dictionary& dict, const SceneFrame& frame, const std::vector<BodyGroup>& groups, BodiesInput& input)
+{
+    double smallest = 1e300;
+    for (const BodyGroup& g : groups) smallest = std::min(smallest, g.sphereRadius);
+    for (StructureDefinition& s : input.structures)
+    {
+        if (s.wall < 0 || !s.motion) continue;
+        s.wall = static_cast<int>(input.walls.size() + input.movers.size());
+        input.movers.push_back(makeMover(dict.subDict("structures").subDict(s.group), frame, s, smallest));
     }
 }
 
@@ -235,7 +246,8 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
     if (patches.empty() && !dict.found("wallPatches"))
         Foam::Info << "constant/bodies: the mesh has no patch of type wall, so bodies can leave it everywhere. If that is not meant: wallPatches (names);" << Foam::nl;
     Obstacles obstacles = makeObstacles(input, frame); // the patches; structures by their shapes
-    addStructureWalls(dict, input);
+    addStructureWalls(input);
+    addMovers(dict, frame, groups, input);
     placeAll(groups, frame, obstacles);
     for (BodyGroup& group : groups)
         for (BodyDefinition& body : group.members)

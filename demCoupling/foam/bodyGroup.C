@@ -34,28 +34,11 @@ bool readEntersAtRelease(const Foam::dictionary& dict)
     return before == "absent";
 }
 
-void readSpheres(const Foam::dictionary& dict, BodyGroup& group)
+void readGroupSpheres(const Foam::dictionary& dict, BodyGroup& group)
 {
-    double &radius = group.sphereRadius, &spacing = group.sphereSpacing;
     const double thinnest = group.prototype.thinnest;
-    radius = 0.25*thinnest;
-    if (dict.found("spheres"))
-    {
-        const Foam::dictionary& spheres = dict.subDict("spheres");
-        checkKeywords(spheres, {"radius", "spacing"});
-        radius = readNumberOr(spheres, "radius", radius, {0, 0.5*thinnest*(1 + 1e-9), true},
-            text("The body's smallest extent is ", thinnest, " m, in a union that of its thinnest part: the spheres must fit into it."));
-        spacing = readNumberOr(spheres, "spacing", 0, {0, 4*radius, true}, "At most twice the diameter, or bodies pass between the spheres.");
-    }
-}
-
-/// Distance of spheres of radius R at which one of radius r that rests between four of them has its centre as high above their tangent plane, over r, as one of
-/// their own size has at the distance 2 R: (sqrt(2) - 1) r. With 2 R one of less than 0.73 R gets its centre into the body, one of less than 0.41 R through its surface.
-double closedSpacing(double R, double r)
-{
-    constexpr double height = 0.41421356237309503, most = 0.25; // beyond: 16 times as many spheres
-    const double low = R + height*r, s = std::sqrt(2*((R + r)*(R + r) - low*low));
-    return r < R ? std::clamp(s, most*2*R, 2*R) : 2*R;
+    group.sphereRadius = 0.25*thinnest;
+    if (dict.found("spheres")) readSpheres(dict.subDict("spheres"), thinnest, group.sphereRadius, group.sphereSpacing);
 }
 
 /// A pose of the user's frame -> of the body frame; 2D: moved to the mid-plane.
@@ -230,6 +213,21 @@ void placeRandomly(BodyGroup& group, const SceneFrame& frame, Obstacles& obstacl
 
 } // namespace
 
+void readSpheres(const Foam::dictionary& dict, double thinnest, double& radius, double& spacing)
+{
+    checkKeywords(dict, {"radius", "spacing"});
+    radius = readNumberOr(dict, "radius", radius, {0, 0.5*thinnest*(1 + 1e-9), true},
+        text("The smallest extent is ", thinnest, " m, in a union that of its thinnest part: the spheres must fit into it."));
+    spacing = readNumberOr(dict, "spacing", 0, {0, 4*radius, true}, "At most twice the diameter, or bodies pass between the spheres.");
+}
+
+double closedSpacing(double R, double r)
+{
+    constexpr double height = 0.41421356237309503, most = 0.25; // beyond: 16 times as many spheres
+    const double low = R + height*r, s = std::sqrt(2*((R + r)*(R + r) - low*low));
+    return r < R ? std::clamp(s, most*2*R, 2*R) : 2*R;
+}
+
 std::vector<Vec3> readArray(const Foam::dictionary& dict, bool& isArray)
 {
     isArray = dict.found("array");
@@ -318,7 +316,7 @@ BodyGroup readBodyGroup(const std::string& name, const Foam::dictionary& dict, c
     body.thinnest = thinnestExtent(*body.shape, frame);
     body.entersAtRelease = readEntersAtRelease(dict);
     group.sampled = sampleShape(body.shape, body.thinnest);
-    readSpheres(dict, group);
+    readGroupSpheres(dict, group);
     return group;
 }
 

@@ -138,7 +138,11 @@ std::vector<Load> totalForces(const LiggghtsModel& model)
 
 } // namespace
 
-bool LiggghtsModel::isGoneSphere(int sphere) const { return isGone[static_cast<size_t>(multisphere->belongs_to(sphere) - 1)] != 0; }
+bool LiggghtsModel::touchesWalls(int sphere) const
+{
+    const int body = multisphere->belongs_to(sphere) - 1;
+    return body < firstMover && !isGone[static_cast<size_t>(body)];
+}
 
 BodyArrays bodyArrays(const LiggghtsModel& model)
 {

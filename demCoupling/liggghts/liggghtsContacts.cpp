@@ -85,7 +85,7 @@ void addPlane(const LiggghtsModel& model, const WallHandle& wall, int index, Sum
     {
         const double distance = atoms.x[i][wall.axis] - wall.coordinate;
         const double overlap = atoms.radius[i] - std::abs(distance);
-        if (overlap <= 0 || model.isGoneSphere(i))
+        if (overlap <= 0 || !model.touchesWalls(i))
             continue;
         Vec3 point = asVec(atoms.x[i]);
         point[wall.axis] = wall.coordinate;
@@ -129,7 +129,7 @@ void addMeshes(const LiggghtsModel& model, const DemSetup& setup, Sums& sums)
         double total = 0;
         for (size_t w = 0; w < model.walls.size(); ++w)
         {
-            if (!model.walls[w].mesh || model.isGoneSphere(i) || !touchesMesh(*model.walls[w].mesh, i))
+            if (!model.walls[w].mesh || !model.touchesWalls(i) || !touchesMesh(*model.walls[w].mesh, i))
                 continue;
             const Vec3 point = closestPoint(setup.walls[w], asVec(atoms.x[i]));
             const double overlap = std::max(atoms.radius[i] - (point - asVec(atoms.x[i])).norm(), 0.0);

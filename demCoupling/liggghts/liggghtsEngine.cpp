@@ -36,6 +36,35 @@ double chosenSkin(const DemSetup& setup)
     return std::max(0.004, 1.6 * smallest);
 }
 
+/// Movers are bodies on which no force acts, of the same inertia about any axis: LIGGGHTS keeps their velocities. Much heavier than the bodies, they do not give way in the
+/// contact law either.
+DemSetup withMovers(DemSetup setup)
+{
+    constexpr double heavier = 1e6;
+    double heaviest = 0;
+    for (const BodyDefinition& body : setup.bodies)
+        heaviest = std::max(heaviest, body.mass);
+    for (const MoverDefinition& mover : setup.movers)
+    {
+        BodyDefinition body;
+        body.name = mover.name;
+        body.spheres = mover.spheres;
+        body.material = mover.material;
+        mover.motion(setup.startTime, body.pose, body.motion);
+        body.mass = heavier * heaviest;
+        body.principalInertia.setConstant(body.mass * std::pow(outerRadius(body), 2));
+        setup.bodies.push_back(std::move(body));
+    }
+    return setup;
+}
+
+template <class Values>
+Values first(Values values, size_t n)
+{
+    values.resize(n);
+    return values;
+}
+
 } // namespace
 
 struct LiggghtsEngine::Implementation
@@ -44,9 +73,10 @@ struct LiggghtsEngine::Implementation
     static constexpr int stepsBetweenLooks = 50; ///< whether anything is near: a look costs up to two sub-steps
 
     explicit Implementation(const DemSetup& given)
-        : setup(checked(given)), reach(given.bodies, given.walls), isHeld(given.bodies.size(), 0),
-          loads(given.bodies.size()), factors(given.bodies.size()), applied(given.bodies.size())
+        : nBodies(given.bodies.size()), setup(withMovers(checked(given))), reach(setup.bodies, given.walls, nBodies), isHeld(setup.bodies.size(), 0),
+          loads(setup.bodies.size()), factors(setup.bodies.size()), applied(setup.bodies.size())
     {
+        model.firstMover = static_cast<int>(nBodies);
         if (setup.skin == 0)
             setup.skin = chosenSkin(setup);
         model.contacts = makeContactTable(setup);
@@ -56,6 +86,7 @@ struct LiggghtsEngine::Implementation
         writeScript(model, setup, timeStep);
         insertBodies(model, setup);
         model.tally->sample();
+        noteMovers();
         for (int b = 0; b < model.bodies.count; ++b)
         {
             isHeld[static_cast<size_t>(b)] = model.isGone[static_cast<size_t>(b)];
@@ -63,11 +94,18 @@ struct LiggghtsEngine::Implementation
         }
     }
 
+    void noteMovers()
+    {
+        moverStart.clear();
+        for (int b = model.firstMover; b < model.bodies.count; ++b)
+            moverStart.push_back(asVec(model.bodies.xcm[b]));
+    }
+
     void applyMobility(int body)
     {
         const BodyDefinition& definition = setup.bodies[static_cast<size_t>(body)];
         std::array<bool, 6> isFree;
-        isFree.fill(!isHeld[static_cast<size_t>(body)]);
+        isFree.fill(!isHeld[static_cast<size_t>(body)] && body < model.firstMover);
         if (definition.isPlanar)
             for (int axis = 0; axis < 3; ++axis)
             {
@@ -169,9 +207,11 @@ struct LiggghtsEngine::Implementation
                 throw DemError("body '" + setup.bodies[static_cast<size_t>(b)].name + "': its motion is not a number (time step too large?)");
     }
 
+    size_t nBodies;                     ///< the movers come behind them, as bodies
     DemSetup setup;
     ReachCheck reach;
     std::vector<char> isHeld;
+    std::vector<Vec3> moverStart;       ///< of the last advance [m]
     std::vector<Load> loads;            ///< of the bodies alone: over their factors
     std::vector<InertiaFactor> factors, applied;
     LiggghtsModel model;
@@ -183,14 +223,14 @@ LiggghtsEngine::LiggghtsEngine(const DemSetup& setup) : impl_(std::make_unique<I
 
 LiggghtsEngine::~LiggghtsEngine() = default;
 
-void LiggghtsEngine::setInertiaFactors(const std::vector<InertiaFactor>& factors) { impl_->factors = factors; }
+void LiggghtsEngine::setInertiaFactors(const std::vector<InertiaFactor>& factors) { std::copy(factors.begin(), factors.end(), impl_->factors.begin()); }
 
 void LiggghtsEngine::setLoads(const std::vector<Load>& loads)
 {
     const BodyArrays& b = impl_->model.bodies;
-    if (loads.size() != static_cast<size_t>(b.count))
+    if (loads.size() != impl_->nBodies)
         throw DemError("setLoads: one load per body is needed");
-    for (int i = 0; i < b.count; ++i)
+    for (int i = 0; i < impl_->model.firstMover; ++i)
     {
         // fcm and torque hold the last total: exchanging the load there makes the first half kick right
         const Load contact = impl_->contactNow(i);
@@ -209,15 +249,19 @@ void LiggghtsEngine::setLoads(const std::vector<Load>& loads)
 
 void LiggghtsEngine::advance(double duration, double largestStep)
 {
-    if (!(duration > 0) || !(largestStep > 0))
-        throw DemError("advance: duration and largest step must be > 0");
+    constexpr double shortest = 1e-4; // of the steps in free flight [s]
+    if (!(duration > 0) || !(largestStep >= 0))
+        throw DemError("advance: duration must be > 0, the largest step >= 0");
     Implementation& d = *impl_;
     d.subSteps = 0;
+    if (largestStep == 0)
+        largestStep = std::max(shortest, d.timeStep);
     if (d.setup.hasContactStepsOnly)
         largestStep = d.timeStep;
     if (!d.model.near->isNew())
         rebuildNeighbours(d.model);
     d.model.tally->start();
+    d.noteMovers();
     d.scaleInertia(d.factors);
     for (double left = duration; left > 1e-12 * duration;)
     {
@@ -234,13 +278,44 @@ void LiggghtsEngine::advance(double duration, double largestStep)
     });
 }
 
-std::vector<BodyState> LiggghtsEngine::states() const { return impl_->states(); }
+std::vector<BodyState> LiggghtsEngine::states() const { return first(impl_->states(), impl_->nBodies); }
 
-std::vector<Load> LiggghtsEngine::meanContactLoads() const { return impl_->model.tally->meanOnBodies(); }
+std::vector<Load> LiggghtsEngine::meanContactLoads() const { return first(impl_->model.tally->meanOnBodies(), impl_->nBodies); }
 
-std::vector<Load> LiggghtsEngine::meanWallLoads() const { return impl_->model.tally->meanOnWalls(); }
+std::vector<Load> LiggghtsEngine::meanWallLoads() const
+{
+    std::vector<Load> loads = impl_->model.tally->meanOnWalls();
+    for (size_t m = 0; m < impl_->setup.movers.size(); ++m)
+    {
+        Load load = impl_->model.tally->meanOnBodies()[impl_->nBodies + m];
+        load.moment += (0.5 * (impl_->moverStart[m] + asVec(impl_->model.bodies.xcm[impl_->nBodies + m]))).cross(load.force);
+        loads.push_back(load);
+    }
+    return loads;
+}
 
-std::vector<Contact> LiggghtsEngine::contacts() const { return listContacts(impl_->model, impl_->setup); }
+std::vector<Contact> LiggghtsEngine::contacts() const
+{
+    std::vector<Contact> result = listContacts(impl_->model, impl_->setup);
+    const int n = impl_->model.firstMover, walls = static_cast<int>(impl_->setup.walls.size());
+    for (Contact& c : result)
+        if (c.other >= n)
+            c.other = -1 - (walls + c.other - n);
+    return result;
+}
+
+void LiggghtsEngine::moveTo(const std::vector<Pose>& movers, double duration)
+{
+    if (movers.size() != impl_->setup.movers.size())
+        throw DemError("moveTo: one pose per mover is needed");
+    for (size_t m = 0; m < movers.size(); ++m)
+    {
+        const int body = impl_->model.firstMover + static_cast<int>(m);
+        const Pose now = impl_->stateOf(body).pose;
+        const Eigen::AngleAxisd turn(movers[m].orientation * now.orientation.conjugate());
+        setMotion(impl_->model, body, {(movers[m].position - now.position) / duration, turn.angle() / duration * turn.axis()});
+    }
+}
 
 bool LiggghtsEngine::hasContact() const { return impl_->model.tally->hasContact(); }
 
@@ -248,7 +323,7 @@ long LiggghtsEngine::subSteps() const { return impl_->subSteps; }
 
 void LiggghtsEngine::setHeld(const std::vector<char>& isHeld)
 {
-    if (isHeld.size() != impl_->isHeld.size())
+    if (isHeld.size() != impl_->nBodies)
         throw DemError("setHeld: one flag per body is needed");
     for (size_t b = 0; b < isHeld.size(); ++b)
     {
@@ -263,18 +338,19 @@ void LiggghtsEngine::setHeld(const std::vector<char>& isHeld)
 
 void LiggghtsEngine::setGone(const std::vector<char>& isGone)
 {
-    if (isGone.size() != impl_->isHeld.size())
+    if (isGone.size() != impl_->nBodies)
         throw DemError("setGone: one flag per body is needed");
-    if (isGone != impl_->model.isGone)
-        flotsam::setGone(impl_->model, isGone);
+    const std::vector<char> all = first(isGone, impl_->setup.bodies.size());
+    if (all != impl_->model.isGone)
+        flotsam::setGone(impl_->model, all);
 }
 
 void LiggghtsEngine::setStates(const std::vector<BodyState>& states)
 {
     LiggghtsModel& model = impl_->model;
-    if (states.size() != static_cast<size_t>(model.bodies.count))
+    if (states.size() != impl_->nBodies)
         throw DemError("setStates: one state per body is needed");
-    for (int b = 0; b < model.bodies.count; ++b)
+    for (int b = 0; b < model.firstMover; ++b)
     {
         const BodyState& state = states[static_cast<size_t>(b)];
         if (model.isGone[static_cast<size_t>(b)])

@@ -17,6 +17,8 @@ struct DemSetup
 {
     std::vector<BodyDefinition> bodies;
     std::vector<WallDefinition> walls;
+    std::vector<MoverDefinition> movers;
+    double startTime = 0;               ///< at which the movers begin [s]
     int nMaterials = 1;
     std::vector<ContactLaw> laws;       ///< nMaterials*nMaterials, symmetric
     std::array<Vec3, 2> box;            ///< region that holds everything; grows if a body leaves it
@@ -44,20 +46,22 @@ public:
     void setLoads(const std::vector<Load>& loads);
 
     /// Advances all bodies by `duration` [s] with sub-steps of at most timeStep() (of at most `largestStep` when no body is
-    /// within reach of another or of a wall during this interval). Contact results below refer to this call.
-    void advance(double duration, double largestStep = 1e-4);
+    /// within reach of another or of a wall during this interval; 0: 0.1 ms, or timeStep() where that is longer). Contact results below refer to this call.
+    void advance(double duration, double largestStep = 0);
 
     std::vector<BodyState> states() const;
     /// Time-mean contact force and moment of each body over the last advance (momentum balance, exact).
     std::vector<Load> meanContactLoads() const;
-    /// Time-mean load on each wall over the last advance, added up in every sub-step: the forces on all walls are the
+    /// Time-mean load on each wall, then on each mover, over the last advance, added up in every sub-step: the forces on all of them are the
     /// opposite of the sum over the bodies to round-off. Moments are about the origin of SPACE [N m] (mesh walls: to half
-    /// the overlap times the friction force).
+    /// the overlap times the friction force; movers: to half their way in the advance times the force).
     std::vector<Load> meanWallLoads() const;
-    std::vector<Contact> contacts() const;
+    std::vector<Contact> contacts() const;      ///< movers count as walls behind the walls
     bool hasContact() const;            ///< any contact force in any sub-step of the last advance
     long subSteps() const;              ///< of the last advance
 
+    /// Where the movers shall be `duration` [s] from now: they go there evenly, whatever touches them. Before every advance() of that duration.
+    void moveTo(const std::vector<Pose>& movers, double duration);
     /// Held bodies do not move (before their release time); their contact load is still computed. Let go, they get the motion of their
     /// definition.
     void setHeld(const std::vector<char>& isHeld);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Bodies that take part in nothing, any more or yet. LIGGGHTS cannot delete one without renumbering the others: their spheres stay, in a group whose
+/// Bodies that take part in nothing, any more or yet, and movers, which touch nothing but the bodies. LIGGGHTS cannot delete one without renumbering the others: their spheres stay, in a group whose
 /// pairs are never listed, and outside of the group that the walls look at. They are spread over the box: where all lie at the place they left at,
 /// looking through the bins would cost the square of their number.
 #include "demCoupling/liggghts/liggghtsHistory.hpp"
@@ -14,7 +14,7 @@ namespace flotsam
 namespace
 {
 
-const char* const groupName = "gone";
+const char *const groupName = "gone", *const moverGroup = "movers";
 constexpr int everything = 1; // bit of LIGGGHTS' group "all"
 
 /// Numbers of a Halton sequence, 0..1: evenly spread, however many are taken.
@@ -60,11 +60,15 @@ std::vector<BodyDefinition> placedAtStart(const DemSetup& setup)
     return bodies;
 }
 
-void excludeGone(LiggghtsModel& model)
+void excludePairs(LiggghtsModel& model)
 {
-    model.instance.command(std::string("group ") + groupName + " id 0"); // of no sphere: they count from 1
+    for (const char* name : {groupName, moverGroup})
+    {
+        model.instance.command(std::string("group ") + name + " id 0"); // of no sphere: they count from 1
+        model.instance.command(std::string("neigh_modify exclude group ") + groupName + " " + name);
+    }
     model.instance.command(std::string("neigh_modify exclude group ") + groupName + " all");
-    model.instance.command(std::string("neigh_modify exclude group ") + groupName + " " + groupName);
+    model.instance.command(std::string("neigh_modify exclude group ") + moverGroup + " " + moverGroup);
 }
 
 void setGone(LiggghtsModel& model, const std::vector<char>& isGone)
@@ -91,9 +95,12 @@ void setGone(LiggghtsModel& model, const std::vector<char>& isGone)
 void markGone(LiggghtsModel& model, const std::vector<char>& isGone)
 {
     const LAMMPS_NS::LAMMPS& dem = model.instance.lammps();
-    const int bit = dem.group->bitmask[dem.group->find(groupName)];
+    const int gone = dem.group->bitmask[dem.group->find(groupName)], mover = dem.group->bitmask[dem.group->find(moverGroup)];
     for (size_t b = 0; b < isGone.size(); ++b)
-        std::fill(dem.atom->mask + model.firstSphere[b], dem.atom->mask + model.firstSphere[b + 1], isGone[b] ? bit : everything);
+    {
+        const int bit = isGone[b] ? gone : static_cast<int>(b) < model.firstMover ? everything : mover;
+        std::fill(dem.atom->mask + model.firstSphere[b], dem.atom->mask + model.firstSphere[b + 1], bit);
+    }
     model.isGone = isGone;
 }
 

@@ -62,7 +62,8 @@ struct LiggghtsModel
     std::vector<char> isGone;           ///< per body: takes part in nothing, any more or yet
     std::vector<Pose> exits;            ///< per body that is gone: where it was, or comes in
     std::array<Vec3, 2> parking;        ///< box that holds those that are gone
-    bool isGoneSphere(int sphere) const;
+    int firstMover = 0;                 ///< bodies from this one on move as prescribed, and touch the others alone
+    bool touchesWalls(int sphere) const;
     std::vector<int> firstSphere;       ///< per body, and the total: sphere of index s has LIGGGHTS tag s+1
     ContactTable contacts;
 };
@@ -109,7 +110,7 @@ void shrinkContactPages(LiggghtsModel& model);
 void forgetWallContacts(LiggghtsModel& model, int sphere);
 
 // liggghtsGone.cpp
-void excludeGone(LiggghtsModel& model);
+void excludePairs(LiggghtsModel& model);
 std::vector<BodyDefinition> placedAtStart(const DemSetup& setup);       ///< with those that come later out of the way
 void setGone(LiggghtsModel& model, const std::vector<char>& isGone);
 void markGone(LiggghtsModel& model, const std::vector<char>& isGone);   ///< without moving them

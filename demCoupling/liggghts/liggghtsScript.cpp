@@ -97,7 +97,7 @@ void writeScript(LiggghtsModel& model, const DemSetup& setup, double timeStep)
     dem.command("create_box " + std::to_string(model.contacts.typeCount()) + " box");
     dem.command("neighbor " + exactText(setup.skin) + " bin");
     dem.command("neigh_modify delay 0 every 1 check yes binsize " + exactText(binSize(setup, box)));
-    excludeGone(model);
+    excludePairs(model);
     dem.command("timestep " + exactText(timeStep));
 
     const ContactTable& table = model.contacts;

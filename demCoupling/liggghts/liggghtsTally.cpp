@@ -136,7 +136,7 @@ void ContactTally::pre_neighbor()
         if (wall.mesh)
             continue;
         for (int i = 0; i < atoms.nlocal; ++i)
-            if (std::abs(atoms.x[i][wall.axis] - wall.coordinate) <= atoms.radius[i] + skin && !model_.isGoneSphere(i))
+            if (std::abs(atoms.x[i][wall.axis] - wall.coordinate) <= atoms.radius[i] + skin && model_.touchesWalls(i))
                 nearPlane_[w].push_back(i);
     }
 }

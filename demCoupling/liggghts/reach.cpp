@@ -36,8 +36,8 @@ double largestTurn(const BodyState& state, const Load& load, double leastInertia
 
 } // namespace
 
-ReachCheck::ReachCheck(const std::vector<BodyDefinition>& bodies, const std::vector<WallDefinition>& walls)
-    : bodies_(bodies), walls_(walls), moving_(bodies.size())
+ReachCheck::ReachCheck(const std::vector<BodyDefinition>& bodies, const std::vector<WallDefinition>& walls, size_t firstMover)
+    : bodies_(bodies), walls_(walls), firstMover_(firstMover), moving_(bodies.size())
 {
     for (size_t b = 0; b < bodies.size(); ++b)
         moving_[b].spheres.resize(bodies[b].spheres.size());
@@ -119,7 +119,7 @@ bool ReachCheck::isFree(const std::vector<BodyState>& states, const std::vector<
     for (size_t b = 0; b < n; ++b)
         if (!isGone[b])
             move(b, states[b], loads[b], isHeld[b] != 0, duration);
-    for (size_t b = 0; b < n; ++b)
+    for (size_t b = 0; b < firstMover_; ++b)
     {
         if (isGone[b])
             continue;

@@ -10,7 +10,8 @@ namespace flotsam
 class ReachCheck
 {
 public:
-    ReachCheck(const std::vector<BodyDefinition>& bodies, const std::vector<WallDefinition>& walls);
+    /// firstMover: bodies from this one on move as prescribed, and touch the others alone.
+    ReachCheck(const std::vector<BodyDefinition>& bodies, const std::vector<WallDefinition>& walls, size_t firstMover);
 
     /// True when no free body can touch another body or a wall within `duration` [s] under constant loads.
     /// Errs on the safe side only. `isHeld` bodies stay where they are, `isGone` ones touch nothing.
@@ -29,6 +30,7 @@ private:
 
     std::vector<BodyDefinition> bodies_;
     std::vector<WallDefinition> walls_;
+    size_t firstMover_;
     std::vector<Moving> moving_;
 };
 

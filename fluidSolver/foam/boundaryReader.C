@@ -104,10 +104,19 @@ bool isNoSlipWallAnywhere(const PatchSource& source, const RawField& velocity, c
     return !halo.any(!isNoSlipWall(velocity.patch(*source.patch), *source.patch));
 }
 
+/// Folder of the start time, whatever its number is written like (0 with timeFormat scientific); empty: there is none.
+Foam::fileName startFolder(const Foam::Time& runTime)
+{
+    if (Foam::isDir(runTime.timePath())) return runTime.timePath();
+    for (const Foam::instant& time : runTime.times())
+        if (time.name() != runTime.constant() && time.equal(runTime.value())) return runTime.path()/time.name();
+    return {};
+}
+
 /// startTime may name a time that is not there.
 void checkTimeFolder(const Foam::Time& runTime)
 {
-    if (Foam::isDir(runTime.timePath())) return;
+    if (!startFolder(runTime).empty()) return;
     std::string there;
     for (const Foam::instant& time : runTime.times())
         if (time.name() != runTime.constant()) there += ' ' + time.name();
@@ -130,7 +139,8 @@ void checkProcessorTimes(const Foam::Time& runTime)
 /// The field's file, and what it is for.
 void checkPhaseFile(const Foam::polyMesh& mesh, const std::string& name)
 {
-    if (Foam::isFile(mesh.time().timePath()/name) || Foam::isFile(mesh.time().timePath()/(name + ".gz"))) return;
+    const Foam::fileName folder = startFolder(mesh.time());
+    if (Foam::isFile(folder/name) || Foam::isFile(folder/(name + ".gz"))) return;
     FatalErrorInFunction << "File " << mesh.time().timePath()/name << " is missing: the volume fraction of the liquid, first of phases in transportProperties." << Foam::nl
         << "    Give it as interFoam does, e.g. dimensions [0 0 0 0 0 0 0]; internalField uniform 0; and fill it with setFields, setExprFields or setAlphaField."
         << Foam::exit(Foam::FatalError);

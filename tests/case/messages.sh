@@ -82,7 +82,14 @@ grep -q "differs was 'bar', is 'log'" other.log || fail "a state of other bodies
 rm -rf tiny && cp -r good tiny
 setEntry tiny/system/controlDict maxBodyCo 1e-12
 (cd tiny && flotsamFoam) > tiny.log 2>&1 && fail "a time step below minDeltaT is accepted"
-grep -q 'limits the time step to [0-9.]*e-[0-9]* s .* minDeltaT .* 1e-09 s' tiny.log || fail "a time step below minDeltaT: no numbers"
+grep -q 'time step falls to [0-9.]*e-[0-9]* s .* minDeltaT .* 1e-09 s: the surface of bar moves with .* maxBodyCo 1e-12' tiny.log || fail "a time step below minDeltaT: not what limits it"
+setEntry tiny/system/controlDict maxBodyCo 0.5
+setEntry tiny/system/controlDict maxCo 1e-12
+(cd tiny && flotsamFoam) > tiny.log 2>&1 && fail "a time step of the flow below minDeltaT is accepted"
+grep -q 'time step falls to [0-9.]*e-[0-9]* s .*: |u| = .* reduce maxCo' tiny.log || fail "a time step of the flow below minDeltaT: not what limits it"
+rm -rf scientific && cp -r good scientific
+setEntry scientific/system/controlDict timeFormat scientific
+(cd scientific && quietly flotsamFoam -dry-run) || fail "the folder 0 is not found as time 0.0000e+00"
 makeFallingSphere alone
 sed -i 's/density /beforeRelease absent; density /' alone/constant/bodies
 (cd alone && flotsamFoam -dry-run) > alone.log 2>&1 && fail "a body that comes in through one fluid is accepted"

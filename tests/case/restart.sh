@@ -61,6 +61,21 @@ fixedSteps touching 0.001 0.08 20
 stopAndGoOn touching 0.05 0.08
 mustTouch touching 0.05 bar edge
 
+# pushed by a structure that moves, on one process and on two
+for ranks in 1 2; do
+    makeFloatingBar pushed$ranks
+    sed -i 's/orientation .*/orientation { axis (0 0 1); angleDeg 45; } velocity (-1 0 0);/' pushed$ranks/constant/bodies
+    cat >> pushed$ranks/constant/bodies << 'EOF'
+structures
+{
+    plate { shape { type box; size (0.01 0.05 0.05); } position (-0.021 0 0.025); motion { type linear; velocity (0.4 0 0); } }
+}
+EOF
+    fixedSteps pushed$ranks 0.0005 0.02 16
+    stopAndGoOn pushed$ranks 0.008 0.016 $ranks
+    mustTouch pushed$ranks 0.008 bar plate
+done
+
 # otherBodies NAME 'COMMAND': what the command changes in constant/bodies of a run that is to go on is refused with the name
 otherBodies() {
     rm -rf other && cp -r touching.parts other

@@ -64,6 +64,22 @@ TEST_CASE("a constant load gives the exact parabola in one step or many")
     }
 }
 
+TEST_CASE("contact steps longer than those of a free flight are taken as they are")
+{
+    DemSetup setup = scene({ball(0.5, 500, Vec3(0, 0, 0.499))}, {plane(Vec3::Zero(), Vec3::UnitZ())});
+    LiggghtsEngine chosen(setup);
+    REQUIRE(chosen.timeStep() > 2e-4);
+    setup.timeStep = 1e-3;
+    LiggghtsEngine given(setup);
+    for (LiggghtsEngine* engine : {&chosen, &given})
+    {
+        engine->setLoads(weights(setup));
+        engine->advance(0.02);
+        CHECK(engine->hasContact());
+        CHECK(engine->subSteps() == std::lround(std::ceil(0.02 / engine->timeStep() - 1e-9)));
+    }
+}
+
 TEST_CASE("large steps while nothing is near, contact steps otherwise")
 {
     DemSetup setup = scene({ball(0.01, 0.01, Vec3(0, 0, 0.1))}, {plane(Vec3::Zero(), Vec3::UnitZ())});

@@ -262,7 +262,7 @@ TEST_CASE("structures that overlap, touch, or lie in others")
 TEST_CASE("prescribed motions: the velocity is the derivative of the pose")
 {
     BodiesScene s;
-    const std::string shape = "structures { gate { contact off; shape { type box; size (0.1 0.1 0.1); } position (1 0.5 0.2); motion { ";
+    const std::string shape = "structures { gate { shape { type box; size (0.1 0.1 0.1); } position (1 0.5 0.2); motion { ";
     for (const std::string motion : {"type linear; velocity (1 2 0);", "type oscillating; direction (0 2 0); amplitude 0.1; period 2; phaseDeg 40;",
         "type rotating; origin (1.2 0.5 0.2); axis (0 0 1); rpm 30;"})
     {
@@ -280,6 +280,36 @@ TEST_CASE("prescribed motions: the velocity is the derivative of the pose")
         const Eigen::AngleAxisd turned(c.orientation*a.orientation.conjugate());
         CHECK((turned.axis()*turned.angle()/(2*h) - m.angularVelocity).norm() < 1e-6);
     }
+}
+
+TEST_CASE("bodies feel structures that move by their spheres, behind the walls")
+{
+    BodiesScene s;
+    const std::string post = "post { shape { type box; size (0.1 0.1 0.1); } position (0.3 0.5 0.2); } ", gate = "gate { shape { type box; size (0.1 0.02 0.1); } position (1.5 0.5 0.2); motion { type linear; velocity (1 0 0); } ";
+    const BodiesInput input = s.read("structures { " + gate + "spheres { radius 0.01; spacing 0.02; } } " + post + "}" + bodies(bar + "position (0.5 0.5 0.2);"));
+    REQUIRE(input.movers.size() == 1);
+    CHECK(input.structures[0].wall == static_cast<int>(input.walls.size()));
+    CHECK(input.structures[1].wall == static_cast<int>(input.walls.size()) - 1);
+    for (const SurfaceSphere& sphere : input.movers[0].spheres)
+    {
+        CHECK(sphere.radius == 0.01);
+        CHECK((sphere.centre.cwiseAbs() - Vec3(0.04, 0, 0.04)).maxCoeff() < 1e-14);
+    }
+    CHECK(s.read("structures { " + gate + "contact off; } }" + bodies(bar + "position (0.5 0.5 0.2);")).movers.empty());
+    CHECK(s.read("structures { " + gate + "} }").movers.empty()); // no bodies
+
+    BodiesScene plane(false); // 0.1 m thick
+    const std::string log = bodies("shape { type box; size (0.2 0.1 0.1); } density 500; position (0.5 0.5 0);");
+    const auto spheres = [&](const std::string& shape)
+    {
+        return plane.read("structures { gate { shape { type " + shape + " } position (1.5 0.5 0); motion { type linear; velocity (1 0 0); } } }" + log).movers[0].spheres;
+    };
+    for (const SurfaceSphere& sphere : spheres("box; size (0.1 0.2 3);")) CHECK(std::abs(sphere.centre.z() - 0.05) + sphere.radius < 0.05 + 1e-12);
+    const auto disc = spheres("cylinder; end1 (0 0 -1); end2 (0 0 1); radius 0.2;");
+    REQUIRE(disc.size() == 1);
+    CHECK(disc[0].radius == 0.2);
+    CHECK((disc[0].centre - Vec3(0, 0, 0.05)).norm() < 1e-14);
+    CHECK(has(plane.message("structures { gate { shape { type sphere; radius 0.1; } position (1.5 0.5 0); motion { type linear; velocity (1 0 0); } } }" + log), "contact off"));
 }
 
 TEST_CASE("2D: a body reaches through the mesh, moved to its mid-plane")

@@ -35,7 +35,10 @@ TEST_CASE("one message for every mistake")
     CHECK(has(overlap, "Body bar.1 reaches 5 mm into body bar.0"));
     CHECK(has(s.message("structures { post { shape { type cylinder; end1 (0.5 0 0.2); end2 (0.5 1 0.2); radius 0.05; } } }" + bodies(bar + at)), "into structure post"));
     CHECK(has(s.message("structures { post { shape { type box; size (0.1 0.1 0.1); } wall noslip; } }"), "Did you mean: noSlip"));
-    CHECK(has(s.message("structures { gate { shape { type box; size (0.1 0.1 0.1); } position (1.5 0.5 0.2); motion { type linear; velocity (1 0 0); } } }" + bodies(bar + at)), "contact off"));
+    const std::string gate = "structures { gate { shape { type box; size (0.1 0.1 0.1); } position (1.5 0.5 0.2); ", moves = "motion { type linear; velocity (1 0 0); } ";
+    CHECK(has(s.message(gate + "spheres { radius 0.02; } } }" + bodies(bar + at)), "structures with 'motion'"));
+    CHECK(has(s.message(gate + moves + "spheres { radius 0.06; } } }" + bodies(bar + at)), "smallest extent is 0.1"));
+    CHECK(has(s.message(gate + moves + "spheres { radius 0.0005; } } }" + bodies(bar + at)), "allowed: 50000"));
     CHECK(has(s.message(bodies(bar + "random { count 50; box ((0 0 0) (0.3 0.05 0.05)); tries 20; }")), "of 50 bodies 'bar' found a place within 20 tries"));
     CHECK(has(s.message(bodies(bar + "array { count (100000 100000 1); spacing (1 1 1); }")), "makes 1e+10 members: at most 1e+06"));
     CHECK(has(s.message(bodies("shape { type cylinder; end1 (1 1 1); end2 (1 1 1); radius 1; } density 1;")), "no length"));
