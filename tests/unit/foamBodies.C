@@ -320,5 +320,13 @@ TEST_CASE("2D: a body reaches through the mesh, moved to its mid-plane")
     CHECK(input.bodies[0].planeAxis == 2);
     CHECK(input.bodies[0].pose.position.z() == near(0.05, 1e-14));
     CHECK(input.bodies[0].mass == near(500*0.2*0.1*0.1, 1e-14));
+    CHECK(input.bodies[0].spheres.size() == 8);     // of one layer, radius 0.025, whatever the thickness
+    for (const SurfaceSphere& sphere : input.bodies[0].spheres)
+    {
+        CHECK(std::abs(sphere.centre.z()) < 1e-16);
+        CHECK(std::max(std::abs(sphere.centre.x()) - 0.075, std::abs(sphere.centre.y()) - 0.025) == within(0, 1e-14));
+    }
+    const std::string cross = "union; parts { a { type box; size (0.4 0.1 0.1); } b { type box; size (0.1 0.4 0.1); } }";
+    for (const SurfaceSphere& sphere : s.read(bodies("shape { type " + cross + " } density 500; position (0.5 0.5 0);")).bodies[0].spheres) CHECK(std::abs(sphere.centre.z()) < 1e-16);
     CHECK(has(s.message(bodies("shape { type box; size (0.2 0.1 0.2); } density 500; position (0.5 0.5 0);")), "must reach through the mesh"));
 }
