@@ -121,6 +121,7 @@ void readTwoFluids(const Foam::dictionary& transport, CaseControls& controls)
     double* mu[2] = {&fluid.muLiquid, &fluid.muGas};
     for (int i = 0; i < 2; ++i)
     {
+        if (!transport.isDict(phases[i])) failIn(transport, text("Entry 'phases' names ", phases[i], ", of which there is no dictionary: ", phases[i], " { transportModel Newtonian; nu ..; rho ..; }"));
         const Foam::dictionary& phase = transport.subDict(phases[i]);
         checkNewtonian(phase);
         *rho[i] = readDimensioned(phase, "rho", Foam::dimDensity);

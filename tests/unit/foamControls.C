@@ -129,6 +129,7 @@ TEST_CASE("transport: what is not modelled or contradictory is said")
     CHECK(has(transportMessage("phases (water air); water { transportModel CrossPowerLaw; nu 1; rho 1; }" + air), "CrossPowerLaw is not modelled"));
     CHECK(has(transportMessage("phases (air water); " + water + air), "list the liquid first"));
     CHECK(has(transportMessage("phases (water air oil); " + water + air), "give two"));
+    CHECK(has(transportMessage("phases (liquid air); " + water + air), "names liquid, of which there is no dictionary"));
     CHECK(has(transportMessage("phases (water air); " + water + "air { nu 1e-5; rho -1; }"), "rho"));
     CHECK(has(transportMessage("sigma 0;"), "Neither 'phases' nor 'nu'"));
     CHECK(has(messageOf([] { checkLaminar(parse("simulationType RAS;")); }), "allowed: laminar"));
