@@ -73,6 +73,7 @@ flotsam_test(cavity verification SOURCES verification/cavity.cpp LIBRARIES flots
 flotsam_test(addedMass verification SOURCES verification/addedMass.cpp LIBRARIES flotsam_flow_support)
 flotsam_test(neutralBody verification SOURCES verification/neutralBody.cpp LIBRARIES flotsam_flow_support RANKS 1 2)
 flotsam_test(thinBodies verification SOURCES verification/thinBodies.cpp LIBRARIES flotsam_flow_support RANKS 1 2)
+flotsam_test(floatingUnions verification SOURCES verification/floatingUnions.cpp LIBRARIES flotsam_flow_support RANKS 1 2)
 flotsam_test(roundBody verification SOURCES verification/roundBody.cpp LIBRARIES flotsam_flow_support RANKS 1 2)
 flotsam_test(leavingBodies verification SOURCES verification/leavingBodies.cpp LIBRARIES flotsam_flow_support RANKS 1 2)
 flotsam_test(touchingBodies verification SOURCES verification/touchingBodies.cpp LIBRARIES flotsam_flow_support RANKS 1 2)

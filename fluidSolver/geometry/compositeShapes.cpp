@@ -2,6 +2,7 @@
 /// Shapes made of shapes: placed and union.
 #include "geometry/primitives.hpp"
 #include "geometry/triSurface.hpp"
+#include "geometry/unionOverlap.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,93 +12,6 @@ namespace flotsam
 {
 namespace
 {
-
-/// int 1, x, x x^T: these add up, moments about centroids do not.
-struct RawMoments
-{
-    double volume = 0;
-    Vec3 first = Vec3::Zero();
-    Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-
-    void add(double weight, const Vec3& x)
-    {
-        volume += weight;
-        first += weight * x;
-        second += weight * x * x.transpose();
-    }
-
-    void add(const VolumeMoments& m)
-    {
-        add(m.volume, m.centroid);
-        second += 0.5 * m.inertia.trace() * Eigen::Matrix3d::Identity() - m.inertia;
-    }
-
-    VolumeMoments aboutCentroid() const
-    {
-        const Vec3 c = first / volume;
-        const Eigen::Matrix3d s = second - volume * c * c.transpose();
-        return {volume, c, s.trace() * Eigen::Matrix3d::Identity() - s};
-    }
-};
-
-struct Bounds
-{
-    Vec3 lower = Vec3::Constant(1e300), upper = Vec3::Constant(-1e300);
-
-    bool isEmpty() const { return (upper - lower).minCoeff() <= 0; }
-    void include(const Bounds& b)
-    {
-        lower = lower.cwiseMin(b.lower);
-        upper = upper.cwiseMax(b.upper);
-    }
-};
-
-Bounds commonBounds(const Shape& a, const Shape& b)
-{
-    const auto x = a.bounds(), y = b.bounds();
-    return {x[0].cwiseMax(y[0]), x[1].cwiseMin(y[1])};
-}
-
-/// Whether a point of a's surface lies inside b (sampled, 1/40 of the smaller shape).
-bool reachesInto(const Shape& a, const Shape& b)
-{
-    const auto x = a.bounds(), y = b.bounds();
-    const double size = std::min((x[1] - x[0]).minCoeff(), (y[1] - y[0]).minCoeff());
-    for (const SurfacePoint& p : samplePoints(a.surface(size / 20), size / 40))
-        if (b.distance(p.x) < -1e-6 * size) return true;
-    return false;
-}
-
-bool overlap(const Shape& a, const Shape& b)
-{
-    return !commonBounds(a, b).isEmpty() && (reachesInto(a, b) || reachesInto(b, a));
-}
-
-/// What the parts' own moments count more than once, by cells of 1/120 of the overlap with a smoothed indicator.
-RawMoments sampledExcess(const std::vector<std::shared_ptr<const Shape>>& parts, const Bounds& box)
-{
-    const double cell = (box.upper - box.lower).maxCoeff() / 120;
-    int n[3];
-    for (int d = 0; d < 3; ++d) n[d] = std::max(8, static_cast<int>(std::ceil((box.upper[d] - box.lower[d]) / cell)));
-    const Vec3 size = (box.upper - box.lower).cwiseQuotient(Vec3(n[0], n[1], n[2]));
-    const double width = size.maxCoeff(), volume = size.prod();
-    RawMoments excess;
-    for (int k = 0; k < n[2]; ++k)
-        for (int j = 0; j < n[1]; ++j)
-            for (int i = 0; i < n[0]; ++i)
-            {
-                const Vec3 x = box.lower + size.cwiseProduct(Vec3(i + 0.5, j + 0.5, k + 0.5));
-                double sum = 0, largest = 0;
-                for (const auto& part : parts)
-                {
-                    const double share = std::clamp(0.5 - part->distance(x) / width, 0.0, 1.0);
-                    sum += share;
-                    largest = std::max(largest, share);
-                }
-                if (sum > largest) excess.add((sum - largest) * volume, x);
-            }
-    return excess;
-}
 
 /// Rotations that are of both; size: of the shapes [m].
 Symmetry commonSymmetry(const Symmetry& a, const Symmetry& b, double size)
@@ -124,31 +38,37 @@ double UnionShape::distance(const Vec3& x) const
 
 std::array<Vec3, 2> UnionShape::bounds() const
 {
-    Bounds all;
+    std::array<Vec3, 2> all = parts_[0]->bounds();
     for (const auto& part : parts_)
     {
-        const auto b = part->bounds();
-        all.include({b[0], b[1]});
+        const auto [lower, upper] = part->bounds();
+        all[0] = all[0].cwiseMin(lower);
+        all[1] = all[1].cwiseMax(upper);
     }
-    return {all.lower, all.upper};
+    return all;
 }
 
 VolumeMoments UnionShape::moments() const
 {
-    RawMoments sum;
-    for (const auto& part : parts_) sum.add(part->moments());
-    Bounds common;
-    for (std::size_t i = 0; i < parts_.size(); ++i)
-        for (std::size_t j = 0; j < i; ++j)
-            if (overlap(*parts_[i], *parts_[j])) common.include(commonBounds(*parts_[i], *parts_[j]));
-    if (!common.isEmpty())
+    std::call_once(isIntegrated_, [&]
     {
-        const RawMoments excess = sampledExcess(parts_, common);
+        RawMoments sum;
+        sum.origin = parts_[0]->moments().centroid;
+        for (const auto& part : parts_) sum.add(part->moments());
+        const RawMoments excess = overlapMoments(parts_, sum.origin, sum.volume);
         sum.volume -= excess.volume;
         sum.first -= excess.first;
         sum.second -= excess.second;
-    }
-    return sum.aboutCentroid();
+        moments_ = sum.aboutCentroid();
+    });
+    return moments_;
+}
+
+double UnionShape::sectionArea(const Vec3& point, const Vec3& normal) const
+{
+    double sum = 0;
+    for (const auto& part : parts_) sum += part->sectionArea(point, normal);
+    return sum > 0 ? sum - overlapArea(parts_, point, normal, sum) : 0;
 }
 
 Symmetry UnionShape::symmetry() const
@@ -198,6 +118,11 @@ VolumeMoments PlacedShape::moments() const
     return m;
 }
 
+double PlacedShape::sectionArea(const Vec3& point, const Vec3& normal) const
+{
+    return shape_->sectionArea(toInner(point), rotation_.transpose() * normal);
+}
+
 TriSurface PlacedShape::surface(double size) const
 {
     TriSurface s = shape_->surface(size);
@@ -208,7 +133,14 @@ TriSurface PlacedShape::surface(double size) const
 std::shared_ptr<const Shape> makeUnion(std::vector<std::shared_ptr<const Shape>> parts)
 {
     if (parts.empty()) throw std::runtime_error("a union needs at least one shape, found none");
-    return std::make_shared<UnionShape>(std::move(parts));
+    std::vector<std::shared_ptr<const Shape>> all; // parts of parts are parts: what they share is found as well
+    for (auto& part : parts)
+    {
+        const auto* inner = dynamic_cast<const UnionShape*>(part.get());
+        if (inner) all.insert(all.end(), inner->parts().begin(), inner->parts().end());
+        else all.push_back(std::move(part));
+    }
+    return std::make_shared<UnionShape>(std::move(all));
 }
 
 std::shared_ptr<const Shape> makePlaced(std::shared_ptr<const Shape> shape, const Eigen::Quaterniond& rotation, const Vec3& translation)

@@ -23,9 +23,9 @@ struct Section { double area; bool isMean; };
 /// Volume of the shape in the plane's sense: see CoverBuilder::exactVolume.
 Section planeSection(const Shape& shape, const Vec3& direction, double height)
 {
+    const double section = shape.sectionArea(height * direction, direction);
     const auto [lower, upper] = shape.bounds();
     const TriSurface surface = shape.surface((upper - lower).minCoeff() / 100);
-    const double section = sectionArea(surface, height * direction, direction);
     double low = 1e300, high = -1e300;
     for (const Vec3& x : surface.points)
     {

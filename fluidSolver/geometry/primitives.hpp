@@ -4,6 +4,8 @@
 
 #include "geometry/shape.hpp"
 
+#include <mutex>
+
 namespace flotsam
 {
 
@@ -92,6 +94,7 @@ public:
     Symmetry symmetry() const override;
     std::array<Vec3, 2> bounds() const override;
     VolumeMoments moments() const override;
+    double sectionArea(const Vec3& point, const Vec3& normal) const override;
     TriSurface surface(double size) const override;
     const Shape& inner() const { return *shape_; }
     Vec3 toInner(const Vec3& x) const { return rotation_.transpose() * (x - translation_); }
@@ -109,7 +112,9 @@ public:
     explicit UnionShape(std::vector<std::shared_ptr<const Shape>> parts) : parts_(std::move(parts)) {}
     double distance(const Vec3& x) const override;
     std::array<Vec3, 2> bounds() const override;
+    /// Found at the first call.
     VolumeMoments moments() const override;
+    double sectionArea(const Vec3& point, const Vec3& normal) const override;
     Symmetry symmetry() const override;
     /// The parts' surfaces one after the other; pieces inside another part are kept.
     TriSurface surface(double size) const override;
@@ -117,6 +122,8 @@ public:
 
 private:
     std::vector<std::shared_ptr<const Shape>> parts_;
+    mutable std::once_flag isIntegrated_;
+    mutable VolumeMoments moments_;
 };
 
 } // namespace flotsam

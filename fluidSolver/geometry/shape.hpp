@@ -62,8 +62,12 @@ public:
     /// Axis-aligned bounding box {lower, upper} in the shape's frame [m].
     virtual std::array<Vec3, 2> bounds() const = 0;
 
-    /// Exact for box, cylinder, sphere, capsule, closed STL; for overlapping unions by fine sampling (says so in its source).
+    /// Exact for box, cylinder, sphere, capsule, closed STL, and for unions whose parts overlap only where they are boxes or not at all; for others to 1e-5.
     virtual VolumeMoments moments() const = 0;
+
+    /// Of the section with the plane through `point` with unit normal `normal`, in the shape's frame [m^2]: that of a surface of facets of 1/100 of the smallest
+    /// extent, which unions count once where parts overlap.
+    virtual double sectionArea(const Vec3& point, const Vec3& normal) const;
 
     /// Triangulated surface; no edge that bends with the shape is longer than `size` [m] (straight lines stay whole).
     virtual TriSurface surface(double size) const = 0;

@@ -180,9 +180,16 @@ double StlShape::distance(const Vec3& x) const
 
 } // namespace
 
+std::shared_ptr<const Shape> makeClosedSurface(TriSurface surface)
+{
+    return std::make_shared<StlShape>(std::move(surface));
+}
+
 std::shared_ptr<const Shape> makeStl(const std::string& file, double scale)
 {
-    return std::make_shared<StlShape>(readClosedStl(file, scale));
+    TriSurface surface = readClosedStl(file, scale);
+    requireSeparateParts(file, surface);
+    return makeClosedSurface(std::move(surface));
 }
 
 } // namespace flotsam

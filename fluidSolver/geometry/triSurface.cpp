@@ -53,6 +53,12 @@ double sectionArea(const TriSurface& surface, const Vec3& point, const Vec3& nor
     return std::abs(area);
 }
 
+double Shape::sectionArea(const Vec3& point, const Vec3& normal) const
+{
+    const auto [lower, upper] = bounds();
+    return flotsam::sectionArea(surface((upper - lower).minCoeff() / 100), point, normal);
+}
+
 Vec3 anyNormalTo(const Vec3& axis)
 {
     int least = 0;

@@ -59,6 +59,28 @@ void turnInsideOut(TriSurface& s)
     for (auto& t : s.triangles) std::swap(t[0], t[1]);
 }
 
+using Parts = std::vector<TriSurface>;
+
+TriSurface turned(TriSurface s)
+{
+    turnInsideOut(s);
+    return s;
+}
+
+TriSurface boxFrom(const Vec3& lower, const Vec3& upper) { return makeBox(0.5 * (lower + upper), upper - lower)->surface(1); }
+
+TriSurface joined(const Parts& parts)
+{
+    TriSurface all;
+    for (const TriSurface& part : parts)
+    {
+        const int start = static_cast<int>(all.points.size());
+        all.points.insert(all.points.end(), part.points.begin(), part.points.end());
+        for (const auto& t : part.triangles) all.triangles.push_back({t[0] + start, t[1] + start, t[2] + start});
+    }
+    return all;
+}
+
 std::vector<Vec3> randomPoints(double extent, int n)
 {
     std::mt19937 generator(1);
@@ -150,4 +172,47 @@ TEST_CASE("surfaces that enclose nothing are refused, naming the file and the ed
     std::ofstream(file.name) << "something else";
     CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("neither binary"), std::runtime_error);
     CHECK_THROWS_WITH_AS(makeStl("no/such/file.stl"), doctest::Contains("cannot be opened"), std::runtime_error);
+}
+
+TEST_CASE("closed parts that reach into each other are refused: lapped, crossed, one in the other, in a cavity's wall")
+{
+    const TemporaryFile file;
+    const Parts lapped = {boxFrom({-0.2, -0.02, -0.025}, {0.05, 0.02, 0.025}), boxFrom({-0.05, -0.02, -0.025}, {0.2, 0.02, 0.025})};
+    const Parts crossed = {boxFrom({-10, -0.02, -0.02}, {10, 0.02, 0.02}), boxFrom({-0.03, -10, -0.03}, {0.03, 10, 0.01})};
+    const Parts nested = {boxFrom({-1, -1, -1}, {1, 1, 1}), boxFrom({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5})};
+    const Parts islandInWall = {nested[0], turned(nested[1]), boxFrom({-0.1, -0.1, 0.2}, {0.2, 0.2, 0.6})};
+    const Parts cavityInAir = {nested[0], turned(boxFrom({0.5, -0.3, -0.3}, {1.5, 0.3, 0.3}))};
+    const Parts balls = {makeSphere(Vec3::Zero(), 1)->surface(0.1), makeSphere({1.5, 0, 0}, 1)->surface(0.1)};
+    for (const Parts& parts : {lapped, crossed, nested, islandInWall, cavityInAir, balls})
+    {
+        writeAscii(file.name, joined(parts));
+        CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains(file.name.c_str()), std::runtime_error);
+        CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("closed parts reach into each other"), std::runtime_error);
+    }
+    writeAscii(file.name, joined({nested[0], turned(boxFrom({2, 2, 2}, {2.5, 2.5, 2.5}))}));
+    CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("is oriented inwards"), std::runtime_error);
+}
+
+TEST_CASE("closed parts may lie apart, touch, and be cavities and islands in them: volumes add up")
+{
+    const TemporaryFile file;
+    const TriSurface outer = boxFrom({-1, -1, -1}, {1, 1, 1}), cavity = turned(boxFrom({-0.5, -0.5, -0.5}, {0.5, 0.5, 0.5}));
+    const TriSurface island = boxFrom({-0.3, -0.3, -0.3}, {0.3, 0.3, 0.3}), beside = boxFrom({1, -0.5, -0.5}, {1.5, 0.5, 0.5});
+    const std::pair<Parts, double> cases[] = {{{outer, boxFrom({3, 3, 3}, {4, 4, 4})}, 9}, {{outer, beside}, 8.5}, {{outer, cavity}, 7}, {{outer, cavity, island, beside}, 7.716}};
+    for (const auto& [parts, volume] : cases)
+    {
+        writeAscii(file.name, joined(parts));
+        CHECK(makeStl(file.name)->moments().volume == near(volume, 1e-12));
+    }
+}
+
+TEST_CASE("a union of STL shapes counts what they share once")
+{
+    const TemporaryFile a, b{"stlShapeTest.b." + std::to_string(getpid()) + ".stl"};
+    writeAscii(a.name, boxFrom({-0.2, -0.02, -0.025}, {0.05, 0.02, 0.025}));
+    writeAscii(b.name, boxFrom({-0.05, -0.02, -0.025}, {0.2, 0.02, 0.025}));
+    const VolumeMoments m = makeUnion({makeStl(a.name), makeStl(b.name)})->moments(), exact = makeBox(Vec3::Zero(), {0.4, 0.04, 0.05})->moments();
+    CHECK(m.volume == near(exact.volume, 2e-5));
+    CHECK(m.centroid.norm() < 1e-6);
+    CHECK((m.inertia - exact.inertia).norm() < 2e-5 * exact.inertia.norm());
 }
