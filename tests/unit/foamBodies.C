@@ -282,6 +282,12 @@ TEST_CASE("prescribed motions: the velocity is the derivative of the pose")
     }
 }
 
+TEST_CASE("a round log with a root wad keeps the axes it is given in: its box is no larger than it is")
+{
+    const auto tree = makeUnion({makeCylinder(Vec3::Zero(), Vec3(1, 0, 0), 0.1), makeCylinder(Vec3::Zero(), Vec3(0.1, 0, 0), 0.3)});
+    CHECK(toPrincipalFrame(tree).inUserFrame.orientation.coeffs() == Eigen::Quaterniond::Identity().coeffs());
+}
+
 TEST_CASE("bodies feel structures that move by their spheres, behind the walls")
 {
     BodiesScene s;
