@@ -12,8 +12,8 @@ namespace
 
 constexpr std::size_t mostSpheres = 50000;
 
-/// A box cut to the mesh's plane.
-std::shared_ptr<const Shape> inPlane(const BoxShape& box, const Pose& pose, const SceneFrame& frame)
+/// A box cut to the mesh's plane, as thick as its spheres: they are one layer, as those of the bodies.
+std::shared_ptr<const Shape> inPlane(const BoxShape& box, const Pose& pose, double radius, const SceneFrame& frame)
 {
     const Vec3 normal = pose.orientation.conjugate()*Vec3::Unit(frame.planeAxis);
     int across = 0;
@@ -21,7 +21,7 @@ std::shared_ptr<const Shape> inPlane(const BoxShape& box, const Pose& pose, cons
     if (std::abs(normal[across]) < 1 - 1e-9) return nullptr;
     Vec3 centre = box.centre(), size = 2*box.half();
     centre[across] = (frame.midPlane - pose.position[frame.planeAxis])*normal[across];
-    size[across] = frame.thickness;
+    size[across] = 2*radius;
     return makeBox(centre, size);
 }
 
@@ -29,7 +29,7 @@ std::vector<SurfaceSphere> spheresInPlane(const StructureDefinition& s, const Sc
 {
     const Pose& pose = s.solid.pose;
     if (const auto* box = dynamic_cast<const BoxShape*>(s.solid.shape.get()))
-        if (const auto cut = inPlane(*box, pose, frame)) return surfaceSpheres(*cut, s.sphereRadius, spacing);
+        if (const auto cut = inPlane(*box, pose, s.sphereRadius, frame)) return surfaceSpheres(*cut, s.sphereRadius, spacing);
     const auto* cylinder = dynamic_cast<const CylinderShape*>(s.solid.shape.get());
     if (!cylinder || std::abs((pose.orientation*cylinder->axis())[frame.planeAxis]) < 1 - 1e-9) return {};
     const Vec3 inSpace = pose.orientation*cylinder->centre() + pose.position;

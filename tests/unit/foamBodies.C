@@ -310,7 +310,7 @@ TEST_CASE("bodies feel structures that move by their spheres, behind the walls")
     {
         return plane.read("structures { gate { shape { type " + shape + " } position (1.5 0.5 0); motion { type linear; velocity (1 0 0); } } }" + log).movers[0].spheres;
     };
-    for (const SurfaceSphere& sphere : spheres("box; size (0.1 0.2 3);")) CHECK(std::abs(sphere.centre.z() - 0.05) + sphere.radius < 0.05 + 1e-12);
+    for (const SurfaceSphere& sphere : spheres("box; size (0.1 0.2 3);")) CHECK(std::abs(sphere.centre.z() - 0.05) < 1e-14);   // one layer
     const auto disc = spheres("cylinder; end1 (0 0 -1); end2 (0 0 1); radius 0.2;");
     REQUIRE(disc.size() == 1);
     CHECK(disc[0].radius == 0.2);
