@@ -7,6 +7,7 @@ target_compile_definitions(flotsam_foam_test PRIVATE FLOTSAM_TEST_CASES="${CMAKE
 flotsam_test(foamControls unit SOURCES unit/foamControls.C LIBRARIES flotsam_foam_test)
 flotsam_test(foamVectoriser unit SOURCES unit/foamVectoriser.C LIBRARIES flotsam_foam_test)
 flotsam_test(foamBoundary unit SOURCES unit/foamBoundary.C LIBRARIES flotsam_foam_test RANKS 1 2)
+flotsam_test(foamInletFlow unit SOURCES unit/foamInletFlow.C LIBRARIES flotsam_foam_test RANKS 1 2)
 flotsam_test(variableHeight verification SOURCES verification/variableHeight.C LIBRARIES flotsam_foam_test flotsam_test_support RANKS 1 2)
 flotsam_test(foamFields unit SOURCES unit/foamFields.C LIBRARIES flotsam_foam_test RANKS 1 2)
 flotsam_test(foamWriteTimes unit SOURCES unit/foamWriteTimes.C LIBRARIES flotsam_foam_test)

@@ -129,7 +129,7 @@ void CoupledStep::letIn(double time)
     for (int b = 0; b < coupling_->nBodies(); ++b)
     {
         if (coupling_->presence(b) != Presence::Awaited || !coupling_->isDue(b, time)) continue;
-        const std::string obstacle = entry_->obstacle(b, fluid_.state().alpha, coupling_->states(), coupling_->areAway());
+        const std::string obstacle = entry_->obstacle(b, fluid_.state().alpha, coupling_->states(), coupling_->areAway(), scene_.solids());
         if (obstacle.empty()) coupling_->letIn(b);
         else if (!isWaiting_[b]) waiting_.push_back("body " + coupling_->definition(b).name + " is to come in, but there is " + obstacle + " at its place: it waits");
         isWaiting_[b] = !obstacle.empty();

@@ -68,8 +68,11 @@ EntryCheck::EntryCheck(const SimplexMesh& mesh, const Halo& halo, const std::vec
     for (const BodyDefinition& body : bodies) extents_.push_back(outerRadius(body));
 }
 
-std::string EntryCheck::obstacle(int body, const std::vector<double>& alpha, const std::vector<BodyState>& states, const std::vector<char>& isAway)
+std::string EntryCheck::obstacle(int body, const std::vector<double>& alpha, const std::vector<BodyState>& states, const std::vector<char>& isAway,
+    const std::vector<Solid>& structures)
 {
+    for (const Solid& structure : structures)
+        if (structure.kind == Solid::Kind::Prescribed && touches(body, structure)) return "structure '" + structure.name + "'";
     for (int other = 0; other < int(bodies_.size()); ++other)
         if (other != body && !isAway[other] && touches(body, other, states[other].pose)) return "body '" + bodies_[other].name + "'";
     const std::vector<int>& nodes = nodesAt(body);
@@ -82,6 +85,13 @@ bool EntryCheck::touches(int body, int other, const Pose& pose) const
     const double gap = gapOfThickness*std::min(a.thinnest, b.thinnest);
     if ((a.pose.position - pose.position).norm() > extents_[body] + extents_[other] + gap) return false;
     return std::min(gapOfSpheres(a, a.pose, b, pose), gapOfSpheres(b, pose, a, a.pose)) < gap;
+}
+
+bool EntryCheck::touches(int body, const Solid& structure) const
+{
+    const BodyDefinition& b = bodies_[body];
+    const auto isAt = [&](const SurfaceSphere& s) { return structure.distance(b.pose.position + b.pose.orientation*s.centre) < s.radius + gapOfThickness*b.thinnest; };
+    return (b.pose.position - structure.pose.position).norm() < extents_[body] + structure.radius() + b.thinnest && std::any_of(b.spheres.begin(), b.spheres.end(), isAt);
 }
 
 /// Nodes of the elements that the body reaches into, or that have a node within half an element from it.

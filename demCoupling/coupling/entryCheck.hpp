@@ -19,11 +19,13 @@ public:
     EntryCheck(const SimplexMesh& mesh, const Halo& halo, const std::vector<BodyDefinition>& bodies);
 
     /// What is in the way of `body` at the pose of its definition, in words; empty: nothing. alpha: of all nodes, liquid 1; states: of all bodies,
-    /// of which those marked in isAway do not count. Collective; every rank gives the same.
-    std::string obstacle(int body, const std::vector<double>& alpha, const std::vector<BodyState>& states, const std::vector<char>& isAway);
+    /// of which those marked in isAway do not count; structures: those with prescribed motion count, where they are now. Collective; every rank gives the same.
+    std::string obstacle(int body, const std::vector<double>& alpha, const std::vector<BodyState>& states, const std::vector<char>& isAway,
+        const std::vector<Solid>& structures);
 
 private:
     bool touches(int body, int other, const Pose& pose) const;
+    bool touches(int body, const Solid& structure) const;
     const std::vector<int>& nodesAt(int body);
 
     const SimplexMesh& mesh_;

@@ -274,40 +274,6 @@ std::shared_ptr<const SampledShape> sampleShape(std::shared_ptr<const Shape> sha
     return std::make_shared<SampledShape>(std::move(shape), std::max(0.25*thinnest, std::sqrt(area/largestNumber)));
 }
 
-/// The disc that a cylinder across a 2D mesh is, as the one sphere that rolls as it does; null: it is none.
-std::unique_ptr<SurfaceSphere> discSphere(const BodyDefinition& body)
-{
-    const auto* cylinder = dynamic_cast<const CylinderShape*>(body.shape.get());
-    if (!cylinder || !body.isPlanar || std::abs((body.pose.orientation*cylinder->axis())[body.planeAxis]) < 1 - 1e-9) return nullptr;
-    return std::make_unique<SurfaceSphere>(SurfaceSphere{cylinder->centre(), cylinder->radius()});
-}
-
-/// Of a body that reaches through a 2D mesh the spheres of one layer, moved to its middle: the others beside them would touch what they touch, the more of them the thicker the mesh is.
-/// All, where the layer has not all of those at the rim.
-std::vector<SurfaceSphere> middleLayer(const std::vector<SurfaceSphere>& all, const Shape& shape, const Vec3& across)
-{
-    constexpr double clear = 1.01;  // deeper than its radius inside: of the front and the back
-
-    double nearest = 1e300;
-    for (const SurfaceSphere& s : all)
-        if (std::abs(s.centre.dot(across)) < std::abs(nearest)) nearest = s.centre.dot(across);
-    std::vector<SurfaceSphere> layer;
-    for (SurfaceSphere s : all)
-    {
-        const double height = s.centre.dot(across);
-        if (std::abs(height - nearest) > 1e-6*s.radius) continue;
-        s.centre -= height*across;
-        layer.push_back(s);
-    }
-    const auto isNeedless = [&](const SurfaceSphere& s)
-    {
-        const Vec3 place = s.centre - s.centre.dot(across)*across;
-        const auto isThere = [&](const SurfaceSphere& l) { return l.radius == s.radius && (l.centre - place).norm() < 1e-6*s.radius; };
-        return shape.distance(place) < -clear*s.radius || std::any_of(layer.begin(), layer.end(), isThere);
-    };
-    return std::all_of(all.begin(), all.end(), isNeedless) ? layer : all;
-}
-
 void makeSpheres(std::vector<BodyGroup>& groups)
 {
     double smallest = 1e300;
@@ -316,9 +282,9 @@ void makeSpheres(std::vector<BodyGroup>& groups)
     {
         const double spacing = g.sphereSpacing > 0 ? g.sphereSpacing : closedSpacing(g.sphereRadius, smallest);
         const double ofRows = g.sphereSpacing > 0 ? g.sphereSpacing : 0.5*g.sphereRadius;
-        if (const auto disc = discSphere(g.prototype)) g.prototype.spheres = {*disc};
-        else g.prototype.spheres = surfaceSpheres(*g.prototype.shape, g.sphereRadius, spacing, ofRows);
-        if (g.prototype.isPlanar) g.prototype.spheres = middleLayer(g.prototype.spheres, *g.prototype.shape, g.prototype.pose.orientation.conjugate()*Vec3::Unit(g.prototype.planeAxis));
+        BodyDefinition& body = g.prototype;
+        body.spheres = body.isPlanar ? sectionSpheres(*body.shape, Vec3::Zero(), body.pose.orientation.conjugate()*Vec3::Unit(body.planeAxis), g.sphereRadius, spacing, ofRows)
+                                     : surfaceSpheres(*body.shape, g.sphereRadius, spacing, ofRows);
     }
 }
 

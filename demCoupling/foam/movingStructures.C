@@ -2,7 +2,8 @@
 #include "demCoupling/foam/movingStructures.H"
 #include "foam/dictionaryChecks.H"
 
-#include "geometry/primitives.hpp"
+#include <algorithm>
+#include <cmath>
 
 namespace flotsam
 {
@@ -12,29 +13,19 @@ namespace
 
 constexpr std::size_t mostSpheres = 50000;
 
-/// A box cut to the mesh's plane, as thick as its spheres: they are one layer, as those of the bodies.
-std::shared_ptr<const Shape> inPlane(const BoxShape& box, const Pose& pose, double radius, const SceneFrame& frame)
-{
-    const Vec3 normal = pose.orientation.conjugate()*Vec3::Unit(frame.planeAxis);
-    int across = 0;
-    normal.cwiseAbs().maxCoeff(&across);
-    if (std::abs(normal[across]) < 1 - 1e-9) return nullptr;
-    Vec3 centre = box.centre(), size = 2*box.half();
-    centre[across] = (frame.midPlane - pose.position[frame.planeAxis])*normal[across];
-    size[across] = 2*radius;
-    return makeBox(centre, size);
-}
-
+/// Of one layer in the mid-plane of a 2D mesh; empty: the shape's section with it is not that with the mesh's front and back.
 std::vector<SurfaceSphere> spheresInPlane(const StructureDefinition& s, const SceneFrame& frame, double spacing)
 {
     const Pose& pose = s.solid.pose;
-    if (const auto* box = dynamic_cast<const BoxShape*>(s.solid.shape.get()))
-        if (const auto cut = inPlane(*box, pose, s.sphereRadius, frame)) return surfaceSpheres(*cut, s.sphereRadius, spacing);
-    const auto* cylinder = dynamic_cast<const CylinderShape*>(s.solid.shape.get());
-    if (!cylinder || std::abs((pose.orientation*cylinder->axis())[frame.planeAxis]) < 1 - 1e-9) return {};
-    const Vec3 inSpace = pose.orientation*cylinder->centre() + pose.position;
-    const Vec3 shift = Vec3::Unit(frame.planeAxis)*(frame.midPlane - inSpace[frame.planeAxis]);
-    return {{cylinder->centre() + pose.orientation.conjugate()*shift, cylinder->radius()}};
+    const Vec3 across = Vec3::Unit(frame.planeAxis), normal = pose.orientation.conjugate()*across;
+    const Vec3 point = pose.orientation.conjugate()*(frame.midPlane*across - pose.position);
+    const double area = s.solid.shape->sectionArea(point, normal);
+    for (const double side : {-1, 1})
+        if (std::abs(s.solid.shape->sectionArea(point + 0.499*side*frame.thickness*normal, normal) - area) > 1e-3*area) return {};
+    const auto spheres = sectionSpheres(*s.solid.shape, point, normal, s.sphereRadius, spacing, 0.5*s.sphereRadius);
+    const auto isBeside = [&](const SurfaceSphere& sphere) { return std::abs((sphere.centre - point).dot(normal)) > 1e-6*sphere.radius; };
+    if (std::any_of(spheres.begin(), spheres.end(), isBeside)) return {};
+    return spheres;
 }
 
 } // namespace
@@ -57,7 +48,7 @@ MoverDefinition makeMover(const Foam::dictionary& dict, const SceneFrame& frame,
     mover.motion = structure.motion;
     mover.spheres = frame.isPlanar ? spheresInPlane(structure, frame, spacing) : surfaceSpheres(*structure.solid.shape, radius, spacing, 0.5*radius);
     if (mover.spheres.empty())
-        failIn(dict, text("2D mesh: bodies feel moving structures that are boxes with a side along ", "xyz"[frame.planeAxis], ", or cylinders along it.\n",
+        failIn(dict, text("2D mesh: bodies feel moving structures that are boxes with a side along ", "xyz"[frame.planeAxis], ", cylinders along it, or unions of these.\n",
             "    Set 'contact off;' in it if the bodies do not reach it."));
     if (mover.spheres.size() > mostSpheres)
         failIn(dict, text("Structure ", mover.name, " moves: bodies would feel it by ", mover.spheres.size(), " spheres of radius ", radius, " m; allowed: ", mostSpheres,

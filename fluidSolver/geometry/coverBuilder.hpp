@@ -72,8 +72,16 @@ private:
         double areaTimesH = 0, reachesThrough = 0;
     };
 
-    /// Newton steps for the offsets of one solid: volume that the last one missed and expected to gain [m^dim], offset that it began with.
-    struct OffsetSearch { std::size_t solid; double missing, expected, offset; };
+    /// Search for the offsets of one solid.
+    struct OffsetSearch
+    {
+        std::size_t solid;
+        double missing = 0, expected = 0, offset = 0;   // volume that the last step missed and expected to gain [m^dim], offset that it began with
+        int nSteps = 0;
+        double low = -1e300, high = 1e300;              // offsets that are known to be too small, too large, with the slope there is now
+        double least = 1e300, bestOffset = 0;           // volume missed at the best place so far
+        Vec3 bestSlope = Vec3::Zero();
+    };
 
     struct KnownVolume
     {
@@ -140,6 +148,9 @@ private:
     bool isShared(const Cover& cover, int solid, int element) const;
     Vec3 pointIn(int element, const double* shape) const;
     bool moveSurface(OffsetSearch& search, Solid& solid, const OwnCut& own);
+    void takeNewtonStep(OffsetSearch& search, Solid& solid, const Eigen::Vector4d& missing, const OwnCut& own, bool hasCentroid) const;
+    bool bracketSurface(OffsetSearch& search, Solid& solid, double missing, const OwnCut& own) const;
+    double offsetLimit(const OwnCut& own) const { return largestOffset * own.areaTimesH / own.surface(0, 0); }
     const Cover& cutMovingSolids(const std::vector<Solid>& solids);
 
     void applySamples(Cover& cover, const std::vector<Solid>& solids, int solid, const std::vector<Sample>& samples);

@@ -14,9 +14,12 @@ namespace
 {
 
 constexpr double touchTolerance = 0.02; // a body lying on a wall may overlap it by this, over the element length
-constexpr int maxNewtonSteps = 6;
+constexpr int maxNewtonSteps = 3;
+constexpr int maxSteps = 12;
 constexpr double largestGain = 4;       // of volume, over what a step expects
 constexpr double nearVolume = 0.01;     // missing over the volume: the step from here is the last
+constexpr double rightVolume = 0.004;   // of thin parts: no step from here
+constexpr double thinVolume = 0.6;      // over surface times element: of a plate half of its thickness, of a rod half of its radius, over the element
 
 struct Section { double area; bool isMean; };
 
@@ -103,29 +106,54 @@ CoverBuilder::OwnCut CoverBuilder::cutAlone(const Solid& solid, const std::vecto
     return own;
 }
 
-/// One Newton step: a displacement c of the surface outwards changes the integrals of (1, r) by those of c (1, r) over the surface. Between
-/// nodes on both sides of a thin part the volume changes faster than that: the second step and later ones are scaled by what the last one gained.
-/// Whether another one is worth while.
+/// The next place to try for the surface, or the last one: false. A Newton step that begins near the right volume needs no look at where it ends, but between
+/// nodes on both sides of a thin part volumes jump: there every step is looked at, and the best place taken.
 bool CoverBuilder::moveSurface(OffsetSearch& search, Solid& solid, const OwnCut& own)
 {
-    const double area = own.surface(0, 0);
-    if (!(area > 0) && search.expected < 0) // lost between the nodes by the last step
+    const auto settle = [&]
     {
-        solid.offset = 0.5 * (solid.offset + search.offset);
+        solid.offset = search.bestOffset;
+        solid.offsetSlope = search.bestSlope;
+        return false;
+    };
+    const double area = own.surface(0, 0);
+    const bool isLast = ++search.nSteps == maxSteps;
+    if (!(area > 0) && search.nSteps > 1 && !isLast) // lost between the nodes by the last step
+    {
+        search.low = solid.offset;
+        solid.offset = 0.5 * (solid.offset + (search.high < 1e300 ? search.high : search.offset));
         search.expected *= 0.5;
         return true;
     }
+    if (!(area > 0) && search.least < 1e300) return settle();
     if (!(area > 0) || own.reachesThrough > 0) return false;
     const KnownVolume& exact = known(solid);
     const Vec3 centroid = solid.pose.orientation * exact.centroid;
     Eigen::Vector4d missing = -own.volume;
     missing[0] += exact.volume;
     for (int d = 0; d < mesh_.dim; ++d) missing[1 + d] += exact.volume * centroid[mesh_.axes[d]];
-    const int n = exact.hasCentroid ? 1 + mesh_.dim : 1;
+
+    const bool isThin = exact.volume < thinVolume * own.areaTimesH;
+    if (std::abs(missing[0]) < search.least)
+    {
+        search.least = std::abs(missing[0]);
+        search.bestOffset = solid.offset;
+        search.bestSlope = solid.offsetSlope;
+    }
+    if (isLast || (isThin && search.nSteps > 1 && search.least < rightVolume * exact.volume)) return settle();
+    if (search.nSteps > maxNewtonSteps) return bracketSurface(search, solid, missing[0], own) || settle();
+    takeNewtonStep(search, solid, missing, own, exact.hasCentroid);
+    return isThin || std::abs(missing[0]) > nearVolume * exact.volume;
+}
+
+/// A displacement c of the surface outwards changes the integrals of (1, r) by those of c (1, r) over the surface. Between nodes on both sides of a thin part the
+/// volume changes faster than that: the second step and later ones are scaled by what the last one gained.
+void CoverBuilder::takeNewtonStep(OffsetSearch& search, Solid& solid, const Eigen::Vector4d& missing, const OwnCut& own, bool hasCentroid) const
+{
+    const int n = hasCentroid ? 1 + mesh_.dim : 1;
     const double gained = search.expected != 0 ? (search.missing - missing[0]) / search.expected : 1;
     const Eigen::VectorXd change = own.surface.topLeftCorner(n, n).ldlt().solve(missing.head(n)) / std::clamp(gained, 1.0, largestGain);
-    const double limit = largestOffset * own.areaTimesH / area;
-    const double offset = std::clamp(solid.offset + change[0], -limit, limit);
+    const double limit = offsetLimit(own), offset = std::clamp(solid.offset + change[0], -limit, limit);
     search.missing = missing[0];
     search.offset = solid.offset;
     search.expected = own.surface(0, 0) * (offset - solid.offset);
@@ -133,7 +161,18 @@ bool CoverBuilder::moveSurface(OffsetSearch& search, Solid& solid, const OwnCut&
     solid.offset = offset;
     for (int d = 0; d + 1 < n; ++d) solid.offsetSlope[mesh_.axes[d]] += change[1 + d];
     solid.offsetSlope *= std::min(1.0, limit / std::max(solid.offsetSlope.norm() * solid.radius(), 1e-300));
-    return std::abs(missing[0]) > nearVolume * exact.volume;
+}
+
+/// Where Newton's steps do not settle: the volume grows with the offset at a given slope, so that offsets on both sides of the right one enclose it.
+bool CoverBuilder::bracketSurface(OffsetSearch& search, Solid& solid, double missing, const OwnCut& own) const
+{
+    (missing > 0 ? search.low : search.high) = solid.offset;
+    const double limit = offsetLimit(own);
+    const bool isEnclosed = search.low > -1e300 && search.high < 1e300;
+    const double offset = isEnclosed ? 0.5 * (search.low + search.high) : std::clamp(solid.offset + missing / own.surface(0, 0), -limit, limit);
+    if (offset == solid.offset) return false;
+    solid.offset = offset;
+    return true;
 }
 
 void CoverBuilder::correctOffsets(std::vector<Solid>& solids)
@@ -141,8 +180,8 @@ void CoverBuilder::correctOffsets(std::vector<Solid>& solids)
     constexpr int width = 22;
     std::vector<OffsetSearch> searches;
     for (std::size_t s = 0; s < solids.size(); ++s)
-        if (solids[s].kind == Solid::Kind::Free && needsOffsets(solids[s])) searches.push_back({s, 0, 0, 0});
-    for (int step = 0; step < maxNewtonSteps && !searches.empty(); ++step)
+        if (solids[s].kind == Solid::Kind::Free && needsOffsets(solids[s])) searches.push_back({s});
+    while (!searches.empty())
     {
         std::vector<double> sums;
         for (const OffsetSearch& search : searches)
@@ -157,7 +196,8 @@ void CoverBuilder::correctOffsets(std::vector<Solid>& solids)
         const double* at = sums.data();
         for (OffsetSearch& search : searches)
         {
-            if (moveSurface(search, solids[search.solid], {Eigen::Vector4d(at), Eigen::Matrix4d(at + 4), at[20], at[21]})) next.push_back(search);
+            Solid& solid = solids[search.solid];
+            if (moveSurface(search, solid, {Eigen::Vector4d(at), Eigen::Matrix4d(at + 4), at[20], at[21]})) next.push_back(search);
             at += width;
         }
         searches.swap(next);

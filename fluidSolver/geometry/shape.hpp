@@ -83,6 +83,11 @@ struct SurfaceSphere { Vec3 centre; double radius; };
 std::vector<SurfaceSphere> surfaceSpheres(const Shape& shape, double radius, double spacing, double rowSpacing);
 inline std::vector<SurfaceSphere> surfaceSpheres(const Shape& shape, double radius, double spacing) { return surfaceSpheres(shape, radius, spacing, spacing); }
 
+/// Likewise of what reaches through a 2D mesh: one layer, with its centres in the plane through `point` with unit normal `normal`, for boxes with a side and cylinders
+/// with their axis along it (these one sphere of their own radius, which rolls as they do), and unions of these, whatever their extent along it. More layers would touch
+/// what one touches. Of other shapes one layer of surfaceSpheres() where that has all that the section needs, else all of them.
+std::vector<SurfaceSphere> sectionSpheres(const Shape& shape, const Vec3& point, const Vec3& normal, double radius, double spacing, double rowSpacing);
+
 std::shared_ptr<const Shape> makeBox(const Vec3& centre, const Vec3& size);
 std::shared_ptr<const Shape> makeSphere(const Vec3& centre, double radius);
 std::shared_ptr<const Shape> makeCylinder(const Vec3& end1, const Vec3& end2, double radius);

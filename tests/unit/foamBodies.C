@@ -311,6 +311,8 @@ TEST_CASE("bodies feel structures that move by their spheres, behind the walls")
         return plane.read("structures { gate { shape { type " + shape + " } position (1.5 0.5 0); motion { type linear; velocity (1 0 0); } } }" + log).movers[0].spheres;
     };
     for (const SurfaceSphere& sphere : spheres("box; size (0.1 0.2 3);")) CHECK(std::abs(sphere.centre.z() - 0.05) < 1e-14);   // one layer
+    for (const SurfaceSphere& sphere : spheres("union; parts { flap { type box; size (0.1 0.2 3); } lip { type box; centre (0.1 -0.05 0); size (0.2 0.1 3); } }"))
+        CHECK(std::abs(sphere.centre.z() - 0.05) < 1e-14);
     const auto disc = spheres("cylinder; end1 (0 0 -1); end2 (0 0 1); radius 0.2;");
     REQUIRE(disc.size() == 1);
     CHECK(disc[0].radius == 0.2);
@@ -332,6 +334,9 @@ TEST_CASE("2D: a body reaches through the mesh, moved to its mid-plane")
         CHECK(std::abs(sphere.centre.z()) < 1e-16);
         CHECK(std::max(std::abs(sphere.centre.x()) - 0.075, std::abs(sphere.centre.y()) - 0.025) == within(0, 1e-14));
     }
+    const auto thick = s.read(bodies("shape { type box; size (0.6 0.5 0.1); } density 500; position (0.5 0.5 0);")).bodies[0].spheres;
+    CHECK(thick.size() == 6);
+    for (const SurfaceSphere& sphere : thick) CHECK(sphere.radius == 0.125); // larger than half of the mesh's thickness
     const std::string cross = "union; parts { a { type box; size (0.4 0.1 0.1); } b { type box; size (0.1 0.4 0.1); } }";
     for (const SurfaceSphere& sphere : s.read(bodies("shape { type " + cross + " } density 500; position (0.5 0.5 0);")).bodies[0].spheres) CHECK(std::abs(sphere.centre.z()) < 1e-16);
     CHECK(has(s.message(bodies("shape { type box; size (0.2 0.1 0.2); } density 500; position (0.5 0.5 0);")), "must reach through the mesh"));

@@ -125,6 +125,38 @@ TEST_CASE("union: only spheres at the common surface")
     CHECK(spheres.size() < 2 * surfaceSpheres(*makeBox(Vec3::Zero(), {0.3, 0.06, 0.06}), 0.01, 0.012).size());
 }
 
+TEST_CASE("section: one layer at the rim, whatever the extent across, wherever the plane")
+{
+    const Vec3 size(0.3, 0.1, 0), point(0, 0, 0.4);
+    const auto across = [](double x, double y, double half, double radius) { return makeCylinder({x, y, -half}, {x, y, half}, radius); };
+    for (const double half : {0.005, 0.05, 2.0})
+    {
+        CAPTURE(half);
+        const auto box = makeBox(Vec3::Zero(), size + 2 * half * Vec3::UnitZ());
+        const auto spheres = sectionSpheres(*box, point, Vec3::UnitZ(), 0.025, 0.05, 0.0125);
+        CHECK(spheres.size() == 12);    // 6 x 2
+        for (const SurfaceSphere& s : spheres)
+        {
+            CHECK(s.radius == 0.025);
+            CHECK(s.centre.z() == near(0.4, 1e-14));
+            CHECK(std::max(std::abs(s.centre.x()) - 0.125, std::abs(s.centre.y()) - 0.025) == within(0, 1e-14));
+        }
+        const auto disc = sectionSpheres(*across(0.2, 0.1, half, 0.3), point, Vec3::UnitZ(), 0.075, 0.1, 0.05);
+        REQUIRE(disc.size() == 1);
+        CHECK(disc[0].radius == 0.3);
+        CHECK((disc[0].centre - Vec3(0.2, 0.1, 0.4)).norm() < 1e-14);
+        // a union, turned and moved within the plane: its parts' spheres, the rest of the box is in the disc
+        const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.4, Vec3::UnitZ()));
+        const auto joined = makePlaced(makeUnion({box, across(0, 0, half, 0.08)}), turn, {1, 2, 0});
+        const auto both = sectionSpheres(*joined, point, Vec3::UnitZ(), 0.025, 0.05, 0.0125);
+        CHECK(both.size() > 5);
+        CHECK(both.size() <= 13);
+        for (const SurfaceSphere& s : both) CHECK(s.centre.z() == near(0.4, 1e-14));
+    }
+    const auto inner = sectionSpheres(*makeUnion({makeBox(Vec3::Zero(), {0.3, 0.1, 1}), across(0, 0, 0.5, 0.08)}), Vec3::Zero(), Vec3::UnitZ(), 0.025, 0.05, 0.0125);
+    CHECK(inner.size() == 9);           // without the four under the disc's surface, at x = +-0.025
+}
+
 TEST_CASE("STL: spheres touch from inside, cover the surface, and are the same at every call")
 {
     const std::string file = "surfaceSpheresTest." + std::to_string(getpid()) + ".stl";
