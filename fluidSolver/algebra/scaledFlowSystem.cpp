@@ -229,6 +229,31 @@ void ScaledFlowSystem::addPressureSources(double* r) const
                 r[std::size_t(g.node[j])*B_ + B_ - 1] += g.pressureFactor*g.jumpPressure[j]*g.pressureSource;
 }
 
+/// Mean; 0 where none is prescribed.
+double ScaledFlowSystem::prescribedLevel(const std::vector<double>& x) const
+{
+    double sums[2] = {0, 0};
+    for (int i = 0; i < mesh_.nOwned; ++i)
+    {
+        if (!system_->isActive[i] || !system_->isPressureFixed[i]) continue;
+        sums[0] += x[std::size_t(i)*B_ + B_ - 1];
+        sums[1] += 1;
+    }
+    halo_.sum(sums, 2);
+    return sums[1] > 0 ? sums[0]/sums[1] : 0;
+}
+
+/// From a right-hand side what the level balances in it: tractions of open boundaries. No other rows know constant pressures.
+void ScaledFlowSystem::subtractLevel(double* r)
+{
+    if (level_ == 0) return;
+    std::fill(pressureLocal_.begin(), pressureLocal_.end(), level_);
+    product().gradient(pressureLocal_.data(), gradient_.data());
+    const int D = B_ - 1;
+    for (int i = 0; i < mesh_.nOwned; ++i)
+        for (int d = 0; d < D; ++d) r[std::size_t(i)*B_ + d] -= gradient_[std::size_t(i)*D + d];
+}
+
 double ScaledFlowSystem::residual(const std::vector<double>& x, const std::vector<double>& velocity, double* r)
 {
     const std::size_t n = std::size_t(mesh_.nOwned)*B_;
@@ -239,6 +264,8 @@ double ScaledFlowSystem::residual(const std::vector<double>& x, const std::vecto
     std::copy(system_->rhs.begin(), system_->rhs.end(), r);
     addPressureSources(r);
     for (std::size_t i = 0; i < n; ++i) rows[i] = r[i] - rows[i];
+    level_ = prescribedLevel(x);
+    subtractLevel(r);
     op.project(r);
     double square = 0;
     for (std::size_t i = 0; i < n; ++i) square += r[i]*scale_[i]*r[i]*scale_[i];
@@ -266,7 +293,7 @@ double ScaledFlowSystem::forceNorm(const std::vector<double>& x, const double* r
 {
     const FlowOperator op = product();
     const int D = B_ - 1;
-    for (int i = 0; i < mesh_.nNodes; ++i) pressureLocal_[i] = x[std::size_t(i)*B_ + D];
+    for (int i = 0; i < mesh_.nNodes; ++i) pressureLocal_[i] = x[std::size_t(i)*B_ + D] - level_;
     op.gradient(pressureLocal_.data(), gradient_.data());
     double* force = local_.data(); // free here
     for (int i = 0; i < mesh_.nOwned; ++i)

@@ -32,11 +32,13 @@ public:
     /// y = matrix times preconditioner times r.
     void multiplyPreconditioned(const double* r, double* y);
 
-    /// Scaled residual r of (x: nNodes*(dim+1) with its halo up to date, q: nDof per solid); returns the norm of the scaled right-hand side.
+    /// Scaled residual r of (x: nNodes*(dim+1) with its halo up to date, q: nDof per solid); returns the norm of the scaled right-hand side, of pressures over the mean of
+    /// the prescribed ones: a constant that is added to all of them changes nothing.
     double residual(const std::vector<double>& x, const std::vector<double>& q, double* r);
     /// Of the last residual(): volume that surfaces sweep in basins without a prescribed pressure beyond what these can give [m^dim/s].
     double unbalancedVolume() const { return unbalancedVolume_; }
-    /// Norm of the scaled forces that change the motion of x: its residual r and the pressure's rows. The right-hand side is mostly inertia over the time step.
+    /// Norm of the scaled forces that change the motion of x, which the last residual() was of: its residual r and the pressure's rows. The right-hand side is mostly
+    /// inertia over the time step.
     double forceNorm(const std::vector<double>& x, const double* r);
     /// Adds a scaled solution to x and q; the halo of x is updated.
     void addTo(std::vector<double>& x, std::vector<double>& q, const double* solution);
@@ -54,6 +56,8 @@ private:
     void subtractFromVelocity(const double* gradient);
     void solvePressure(const double* r);
     void addPressureSources(double* r) const;
+    double prescribedLevel(const std::vector<double>& x) const;
+    void subtractLevel(double* r);
     void preconditionUnscaled(const double* r);
     void finishProduct(const FlowOperator& op, double* y, const double* ofPressure);
     double balanceContinuity(double* y);
@@ -73,6 +77,7 @@ private:
     SolidUnknowns solids_;
 
     double unbalancedVolume_ = 0;
+    double level_ = 0;                      // mean of the prescribed pressures [Pa]
     std::vector<double> scale_;             // nOwned*B: 1/sqrt(diagonal)
     std::vector<float> viscousPressure_;    // nOwned: inverse of the viscous part of the Schur complement, lumped; only preconditions
     std::vector<double> local_;             // work: nNodes*B, unscaled

@@ -106,16 +106,22 @@ void ShutPockets::addNodesInSolids(const Cover& cover)
 
 void ShutPockets::setPressures(const std::vector<double>& p, const std::vector<double>& rho, const std::array<double, 3>& gravity)
 {
-    const int dim = mesh_.dim;
-    pressure_ = p;
-    extendIntoSolids(mesh_, graph_, halo_, isOutside_, pressure_);
-    std::vector<double> source(mesh_.nNodes);
-    for (int d = 0; d < dim; ++d) // where it was taken from: the same mean of places
+    // with the pressure the place it was taken from: the same mean
+    const int dim = mesh_.dim, width = dim + 1;
+    std::vector<double> values(std::size_t(mesh_.nNodes)*width);
+    for (int i = 0; i < mesh_.nNodes; ++i)
     {
-        for (int i = 0; i < mesh_.nNodes; ++i) source[i] = mesh_.x[std::size_t(i)*dim + d];
-        extendIntoSolids(mesh_, graph_, halo_, isOutside_, source);
-        for (int i = 0; i < mesh_.nNodes; ++i)
-            if (isIn_[i]) pressure_[i] += rho[i]*gravity[d]*(mesh_.x[std::size_t(i)*dim + d] - source[i]);
+        values[std::size_t(i)*width] = p[i];
+        std::copy_n(&mesh_.x[std::size_t(i)*dim], dim, &values[std::size_t(i)*width + 1]);
+    }
+    extendTo(mesh_, graph_, halo_, isOutside_, isIn_, values, width);
+    pressure_ = p;
+    for (int i = 0; i < mesh_.nNodes; ++i)
+    {
+        if (!isIn_[i]) continue;
+        const double* source = &values[std::size_t(i)*width];
+        pressure_[i] = source[0];
+        for (int d = 0; d < dim; ++d) pressure_[i] += rho[i]*gravity[d]*(mesh_.x[std::size_t(i)*dim + d] - source[1 + d]);
     }
 }
 

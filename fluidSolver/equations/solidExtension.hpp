@@ -16,6 +16,10 @@ void extendIntoSolids(const SimplexMesh& mesh, const NodeGraph& graph, const Hal
 void extendIntoSolids(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const std::vector<char>& isKnown,
     std::vector<double>& values, int nRings = 3);
 
+/// Likewise ring by ring until all wanted nodes (nNodes) have values, through nodes that are not known, whoever wants them. values: nNodes*width.
+void extendTo(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const std::vector<char>& isKnown, const std::vector<int>& isWanted,
+    std::vector<double>& values, int width);
+
 /// Gives wanted nodes (nNodes) inside solids the mean of `values` over the fluid nodes of the cut elements around, weighted by their parts of the fluid; where
 /// there is none they keep theirs. values: nNodes, halo up to date before and after. Collective.
 void takeFromFluidBeside(const SimplexMesh& mesh, const Halo& halo, const Cover& cover, const std::vector<char>& isWanted,

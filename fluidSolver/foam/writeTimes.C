@@ -20,6 +20,8 @@ struct ClockAccess : Foam::Time
     static Foam::label& written(Foam::Time& t) { return t.*&ClockAccess::writeTimeIndex_; }
 };
 
+constexpr double excess = 0.01;    // of the wanted step that a step may take besides to end at a write time, as Time's own
+
 /// Number of write times from `first` to `time`, as Time counts them: one less than half a step ahead has come.
 double count(const Foam::Time& clock, double first, double time, double step)
 {
@@ -38,7 +40,7 @@ double WriteTimes::setStep(double wanted)
     if (ClockAccess::isAdjusted(clock_))
     {
         const double left = first_ + (count(clock_, first_, time_, lastStep_) + 1)*ClockAccess::interval(clock_) - time_;
-        step = left/std::max(1.0, std::round(left/wanted));
+        step = left/std::max(1.0, std::ceil(left/wanted - excess));
     }
     clock_.setDeltaT(step, false);
     clock_.functionObjects().adjustTimeStep();

@@ -4,6 +4,7 @@
 #include "core/patchFaces.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace flotsam
@@ -47,6 +48,32 @@ std::vector<double> narrowNodes(const SimplexMesh& mesh, const std::vector<doubl
     return isNarrow;
 }
 
+/// A place on a face of the wall: there the distances of a solid's faces.
+using FaceValues = std::array<double, maxFaces>;
+
+/// Of a convex polygon (or a segment as one with two corners) the part where a linear function, given by the corners' values number f, is less than `limit`.
+void clip(std::vector<FaceValues>& polygon, int f, double limit, int nFaces)
+{
+    std::vector<FaceValues> part;
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+    {
+        const FaceValues &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+        if (a[f] < limit) part.push_back(a);
+        if ((a[f] < limit) == (b[f] < limit)) continue;
+        const double t = (limit - a[f])/(b[f] - a[f]);
+        FaceValues& between = part.emplace_back();
+        for (int k = 0; k < nFaces; ++k) between[k] = (1 - t)*a[k] + t*b[k];
+    }
+    polygon.swap(part);
+}
+
+/// Whether somewhere on the polygon all distances are less than `limit`.
+bool comesNearer(std::vector<FaceValues> polygon, double limit, int nFaces)
+{
+    for (int f = 0; f < nFaces && !polygon.empty(); ++f) clip(polygon, f, limit, nFaces);
+    return !polygon.empty();
+}
+
 } // namespace
 
 WallFilm::WallFilm(const SimplexMesh& mesh, const Halo& halo) : mesh_(mesh), position_(mesh.nNodes, -1)
@@ -84,6 +111,72 @@ WallFilm::WallFilm(const SimplexMesh& mesh, const Halo& halo) : mesh_(mesh), pos
         position_[i] = int(nodes_.size());
         nodes_.push_back(node);
     }
+    findFaces(halo);
+}
+
+/// Owners give them to the others, which do not see all of them.
+void WallFilm::findFaces(const Halo& halo)
+{
+    const int dim = mesh_.dim;
+    std::vector<std::vector<double>> ofNode(mesh_.nNodes);
+    for (const MeshPatch& patch : mesh_.patches)
+    {
+        if (patch.type != "wall") continue;
+        for (std::size_t f = 0; f < patch.faceElement.size(); ++f)
+            for (int a = 0; a < dim; ++a)
+            {
+                std::vector<double>& own = ofNode[patch.faceNodes[f*dim + a]];
+                for (int b = 0; b < dim; ++b)
+                {
+                    const std::array<double, 3> x = mesh_.spacePoint(patch.faceNodes[f*dim + b]);
+                    if (b != a) own.insert(own.end(), x.begin(), x.end());
+                }
+            }
+    }
+    std::size_t most = 0;
+    for (int i = 0; i < mesh_.nOwned; ++i) most = std::max(most, ofNode[i].size());
+    const int width = 1 + static_cast<int>(halo.max(double(most)));
+    std::vector<double> all(std::size_t(mesh_.nNodes)*width, 0.0); // number, coordinates
+    for (int i = 0; i < mesh_.nOwned; ++i)
+    {
+        all[std::size_t(i)*width] = double(ofNode[i].size());
+        std::copy(ofNode[i].begin(), ofNode[i].end(), &all[std::size_t(i)*width] + 1);
+    }
+    halo.update(all, width);
+    for (int i = 0; i < mesh_.nNodes; ++i)
+    {
+        if (position_[i] < 0) continue;
+        WallNode& node = nodes_[position_[i]];
+        const double* own = &all[std::size_t(i)*width];
+        node.firstCorner = corners_.size();
+        for (int k = 0; k < int(own[0]); k += 3) corners_.emplace_back(own[1 + k], own[2 + k], own[3 + k]);
+        node.endCorner = corners_.size();
+    }
+}
+
+/// 1: the solid reaches into a face of the wall at the node; 0: it stays a film's thickness away from all of them. distances: of its faces, at the node;
+/// shift: to be added to those elsewhere.
+double WallFilm::touch(const WallNode& wall, const Solid& solid, int nFaces, const double* distances, double shift) const
+{
+    const int nOthers = mesh_.dim - 1;
+    const double film = filmThickness*wall.height;
+    double most = 0;
+    for (std::size_t c = wall.firstCorner; c < wall.endCorner && most < 1; c += nOthers)
+    {
+        std::vector<FaceValues> face(1 + nOthers);
+        std::copy_n(distances, nFaces, face[0].begin());
+        for (int k = 0; k < nOthers; ++k)
+        {
+            solid.faceDistances(corners_[c + k], face[1 + k].data());
+            for (int f = 0; f < nFaces; ++f) face[1 + k][f] += shift;
+        }
+        if (!comesNearer(face, (1 - most)*film, nFaces)) continue;
+        double low = 0, high = (1 - most)*film;     // the solid comes nearer than high
+        if (comesNearer(face, 0, nFaces)) return 1;
+        while (high - low > 1e-6*film) (comesNearer(face, 0.5*(low + high), nFaces) ? high : low) = 0.5*(low + high);
+        most = 1 - high/film;
+    }
+    return most;
 }
 
 const WallFilm::WallNode* WallFilm::wallNode(int i, const Solid& solid) const
@@ -125,13 +218,18 @@ double WallFilm::lift(int i, const Solid& solid, int nFaces, double* distances, 
     // a round side lies on the wall at its line alone, but with all of it: what is lifted under it goes on beside its ends
     const bool isFlat = solid.shape->symmetry().kind == Symmetry::Kind::None;
     const bool isBeside = isFlat && *std::max_element(distances, distances + nFaces) >= film;
+    double ofSteep = isBeside ? -1 : 1;     // lifted beside the solid only where it reaches into the wall, with an edge between nodes; -1: not asked yet
     bool isLifted = false;
+    const std::array<double, maxFaces> unlifted = [&] { std::array<double, maxFaces> d; std::copy_n(distances, nFaces, d.begin()); return d; }();
     for (int k = 0; k < nFaces; ++k)
     {
         const double cosine = (here[k] - over[k])/(reachOfFilm*wall->height);
-        if (distances[k] >= film || cosine <= (isBeside ? flatCosine : facingCosine)) continue;
-        distances[k] = film;
-        isLifted = true;
+        if (distances[k] >= film || cosine <= facingCosine) continue;
+        const bool isSteep = cosine <= flatCosine;
+        if (isSteep && ofSteep < 0) ofSteep = touch(*wall, solid, nFaces, unlifted.data(), -nearer*wall->height);
+        const double share = isSteep ? ofSteep : 1;
+        distances[k] += share*(film - distances[k]);
+        isLifted = isLifted || share > 0;
     }
     return isLifted ? film : noFilm;
 }

@@ -38,14 +38,18 @@ private:
     {
         Vec3 normal = Vec3::Zero();     // out of the fluid
         double height = 0;              // of the elements on the wall, the lowest [m]
+        std::size_t firstCorner = 0, endCorner = 0; // in corners_
     };
 
     const WallNode* wallNode(int node, const Solid& solid) const;
     Vec3 pointOver(int node, const WallNode& wall, double heights) const;
+    void findFaces(const Halo& halo);
+    double touch(const WallNode& wall, const Solid& solid, int nFaces, const double* distances, double shift) const;
 
     const SimplexMesh& mesh_;
     std::vector<int> position_;         // nNodes: in nodes_, -1: not on a wall
     std::vector<WallNode> nodes_;
+    std::vector<Vec3> corners_;         // of the walls' faces at each wall node the others than this, face by face
 };
 
 } // namespace flotsam

@@ -23,11 +23,11 @@ void put(std::vector<double>& list, const Vec3& v)
 
 /// Rows `first`..`first+count-1` of a table with three columns, as XDMF's reader of ParaView 5 wants them.
 void writeSlab(std::ostream& out, const std::string& dataset, const char* type, std::size_t first, std::size_t count,
-    std::size_t total)
+    std::size_t total, int precision = 4)
 {
     out << "<DataItem ItemType=\"HyperSlab\" Dimensions=\"" << count << " 3\" Type=\"HyperSlab\">"
         << "<DataItem Dimensions=\"3 2\" Format=\"XML\">" << first << " 0 1 1 " << count << " 3</DataItem>"
-        << "<DataItem Dimensions=\"" << total << " 3\" NumberType=\"" << type << "\" Precision=\"4\" Format=\"HDF\">"
+        << "<DataItem Dimensions=\"" << total << " 3\" NumberType=\"" << type << "\" Precision=\"" << precision << "\" Format=\"HDF\">"
         << dataset << "</DataItem></DataItem>";
 }
 
@@ -58,8 +58,8 @@ void SurfaceSeries::create(Hdf5File& out) const
     out.createTable(group + "/member", 1, nTriangles, Hdf5File::Storage::Int32);
     out.appendRows(group + "/member", triangleMember_.data(), nTriangles);
     out.createTable(group + "/time", 1, 256);
-    // pictures need no more than single precision
-    out.createTable(group + "/points", 3, points_.size(), Hdf5File::Storage::Float32);
+    // pictures need no more than single precision, but for places in the grid of a map: millions of metres
+    out.createTable(group + "/points", 3, points_.size());
     out.createTable(group + "/velocity", 3, points_.size(), Hdf5File::Storage::Float32);
     out.createTable(group + "/memberVelocity", 3, nTriangles, Hdf5File::Storage::Float32);
     out.createTable(group + "/contactForce", 3, nTriangles, Hdf5File::Storage::Float32);
@@ -136,7 +136,7 @@ void SurfaceSeries::writeXdmf() const
         // a slab here, too: ParaView 5 then does not try to find out (in vain, with an error) whether the grid has changed
         writeSlab(out, data + "/triangles", "Int", 0, nTriangles, nTriangles);
         out << "</Topology>\n<Geometry GeometryType=\"XYZ\">";
-        writeSlab(out, data + "/points", "Float", t * nPoints, nPoints, nTimes * nPoints);
+        writeSlab(out, data + "/points", "Float", t * nPoints, nPoints, nTimes * nPoints, 8);
         out << "</Geometry>\n<Attribute Name=\"member\" AttributeType=\"Scalar\" Center=\"Cell\"><DataItem Dimensions=\""
             << nTriangles << "\" NumberType=\"Int\" Precision=\"4\" Format=\"HDF\">" << data << "/member</DataItem></Attribute>\n"
             << "<Attribute Name=\"surfaceVelocity\" AttributeType=\"Vector\" Center=\"Node\">";

@@ -233,6 +233,12 @@ TEST_CASE("what touches a structure with an edge or a corner is not cut, whateve
                 const Halo halo(mesh, MPI_COMM_WORLD);
                 std::vector<Solid> solids(2);
                 const Vec3 size = isWithin ? Vec3(1, height, 1) : Vec3(1, 4, 4);
+                const auto beyond = [&](const Vec3& x)
+                {
+                    double most = -1e300;
+                    for (int d = 0; d < dim; ++d) most = std::max(most, std::abs(x[d]) - size[d]/2);
+                    return most;
+                };
                 solids[0].shape = makeBox(Vec3::Zero(), size);
                 solids[1].kind = Solid::Kind::Free;
                 solids[1].shape = makeSphere(Vec3::Zero(), 0.1*height);
@@ -253,11 +259,11 @@ TEST_CASE("what touches a structure with an edge or a corner is not cut, whateve
                         {
                             const auto x = mesh.spacePoint(nodes[a]);
                             const Vec3 y(x[0], x[1], x[2]);
-                            nIn += (y.cwiseAbs() - size/2).head(dim).maxCoeff() < 1e-9;
+                            nIn += beyond(y) < 1e-9;
                             centre += y/(dim + 1);
                             isNearBody = isNearBody || (y - solids[1].pose.position).norm() < 0.1*height;
                         }
-                        isInside = (centre.cwiseAbs() - size/2).head(dim).maxCoeff() < 0;
+                        isInside = beyond(centre) < 0;
                         const ElementState expected = isInside ? ElementState::Solid : nIn == dim ? ElementState::Cut : ElementState::Fluid;
                         if (isNearBody || (cover.state[e] == ElementState::Cut && cover.cuts[cover.cutIndex[e]].volume < (1 - 1e-9)*mesh.volume[e])) continue;   // the body's
                         wrong += cover.state[e] != expected;

@@ -163,3 +163,47 @@ TEST_CASE("between walls one element apart there is no room for films")
     solid.isLoose = false;
     CHECK(volume == cutMesh(room.mesh, graph, halo, {solid}).solidVolume[0]);
 }
+
+TEST_CASE("the surface of a box is closed that has an edge in the floor, between its nodes or not")
+{
+    for (const int dim : {2, 3})
+        for (const bool alternate : {false, true})
+            for (const double degrees : {10., 20., 40., 50., 60., 75.})
+                for (const double depth : {0.01, 0.1, 0.3, 0.45})
+                {
+                    CAPTURE(dim);
+                    CAPTURE(degrees);
+                    CAPTURE(depth);
+                    const Room room(dim, alternate);
+                    double worst = 0;
+                    const int nPlaces = dim == 2 ? 40 : 6;
+                    for (int k = 0; k < nPlaces; ++k)
+                    {
+                        Solid box = looseBox(Vec3::Zero(), Vec3(0.5, 0.3, dim == 2 ? 1 : 0.43));
+                        const double angle = degrees*M_PI/180;
+                        box.pose.orientation = Eigen::AngleAxisd(angle, Vec3::UnitZ());
+                        box.pose.position = Vec3(0.5 + h*(k + 0.37)/nPlaces, 0.25*std::sin(angle) + 0.15*std::cos(angle) - depth*h, 0.513);
+                        worst = std::max(worst, closure(room, room.cut(box)).norm());
+                    }
+                    CHECK(worst < 1e-8);
+                }
+}
+
+TEST_CASE("what an edge that comes down to the floor loses grows with its way, without a jump")
+{
+    const Room room(2, true);
+    constexpr double angle = 0.8;
+    for (const double x : {0.5, 0.52, 0.57})
+    {
+        double before = -1;
+        for (double height = 0.3*h; height > -0.3*h; height -= 0.002*h)
+        {
+            Solid box = looseBox(Vec3::Zero(), Vec3(0.5, 0.3, 1));
+            box.pose.orientation = Eigen::AngleAxisd(angle, Vec3::UnitZ());
+            box.pose.position = Vec3(x, height + 0.25*std::sin(angle) + 0.15*std::cos(angle), 0.5);
+            const double volume = room.cut(box).solidVolume[0];
+            if (before >= 0) CHECK(std::abs(volume - before) < 0.03*h*h);
+            before = volume;
+        }
+    }
+}

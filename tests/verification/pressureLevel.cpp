@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Closed tanks: no boundary gives the pressure a level, and it does not drift.
+/// Closed tanks: no boundary gives the pressure a level, and it does not drift. Open boundaries: their level changes nothing but the level.
 #include "demCoupling/coupling/coupledStep.hpp"
-#include "support/flowCases.hpp"
+#include "support/coupledRig.hpp"
 
 #include <doctest/doctest.h>
 
@@ -84,5 +84,80 @@ TEST_CASE("the pressure of a closed tank keeps its level")
         }
         std::printf("%s: level %.1f Pa off at most\n", isTwoPhase ? "water and gas" : "one fluid, plate", farthest);
         CHECK(farthest < (isTwoPhase ? 10 : 1000)); // the plate's nodes count here; 9810 Pa from floor to ceiling
+    }
+}
+
+/// Water that flows around a fixed square bar, under gas or all over the channel, and out against the pressure of the outlet.
+struct OpenChannel : CoupledRig
+{
+    double level;
+
+    OpenChannel(bool isTwoPhase, double l) : CoupledRig(makeBoxMesh(MPI_COMM_WORLD, 2, {48, 24, 1}, {0, 0, 0}, {2, 1, 1})), level(l)
+    {
+        fluid.isTwoPhase = isTwoPhase;
+        if (isTwoPhase) fluid.gravity[1] = -9.81;
+        const auto inflow = [](const double* x, double) { return std::array<double, 3>{x[1] < 0.61 ? 0.5 : 0, 0, 0}; };
+        patches.push_back(makePatch(mesh, 0, BoundaryPatch::Velocity::Fixed, inflow));
+        patches.push_back(makePatch(mesh, 1, isTwoPhase ? BoundaryPatch::Velocity::Slip : BoundaryPatch::Velocity::Open));
+        patches.push_back(makePatch(mesh, 2, BoundaryPatch::Velocity::Slip));
+        patches.push_back(makePatch(mesh, 3, isTwoPhase ? BoundaryPatch::Velocity::Open : BoundaryPatch::Velocity::Slip));
+        for (BoundaryPatch& patch : patches)
+            patch.evaluate = [plain = patch.evaluate, l](const BoundaryState& state, PatchValues& values)
+            {
+                plain(state, values);
+                for (double& p : values.pressure) p += l;
+            };
+    }
+
+    /// The state after some steps; the iterations of all.
+    FlowState run(long& iterations)
+    {
+        SceneStructure bar;
+        bar.solid.shape = makeBox(Vec3::Zero(), Vec3(0.2, 0.2, 1));
+        bar.solid.pose.position = Vec3(0.7, 0.51, 0.5);
+        CoupledStep steps(mesh, halo, fluid, controls, patches, Scene({bar}, {}, Vec3::Zero()), nullptr, timers);
+        FlowState state = restState(mesh);
+        for (int i = 0; i < mesh.nNodes; ++i)
+        {
+            const double y = mesh.x[2*std::size_t(i) + 1];
+            if (fluid.isTwoPhase) state.alpha[i] = y < 0.6;
+            state.p[i] = level + (fluid.isTwoPhase ? 9.81*(y < 0.6 ? 0.4 + 1000*(0.6 - y) : 1 - y) : 0);
+        }
+        steps.start(std::move(state), true);
+        iterations = 0;
+        for (int k = 0; k < 40; ++k)
+        {
+            const StepResult result = steps.step(0.01);
+            CAPTURE(result.failure);
+            CAPTURE(k);
+            REQUIRE(result.isAccepted);
+            iterations += result.linearIterations;
+        }
+        return steps.fluid().state();
+    }
+};
+
+TEST_CASE("a constant that is added to the prescribed pressures adds itself to the pressure, and changes neither flow nor iterations")
+{
+    for (const bool isTwoPhase : {false, true})
+    {
+        long before = 0;
+        OpenChannel plain(isTwoPhase, 0);
+        const FlowState at0 = plain.run(before);
+        for (const double level : {1e5, -2e4})
+        {
+            CAPTURE(level);
+            long iterations = 0;
+            OpenChannel channel(isTwoPhase, level);
+            const FlowState state = channel.run(iterations);
+            double ofVelocity = 0, ofPressure = 0;
+            for (std::size_t k = 0; k < state.u.size(); ++k) ofVelocity = std::max(ofVelocity, std::abs(state.u[k] - at0.u[k]));
+            for (std::size_t i = 0; i < state.p.size(); ++i) ofPressure = std::max(ofPressure, std::abs(state.p[i] - at0.p[i] - level));
+            std::printf("%s, level %g Pa: %ld and %ld iterations, velocity %.1e m/s, pressure %.1e Pa\n", isTwoPhase ? "water and gas" : "one fluid", level, before, iterations,
+                channel.halo.max(ofVelocity), channel.halo.max(ofPressure));
+            CHECK(std::abs(iterations - before) <= 2);
+            CHECK(channel.halo.max(ofVelocity) < 1e-8);
+            CHECK(channel.halo.max(ofPressure) < 1e-4);
+        }
     }
 }
