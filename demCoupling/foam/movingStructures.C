@@ -11,7 +11,7 @@ namespace flotsam
 namespace
 {
 
-constexpr std::size_t mostSpheres = 50000;
+constexpr std::size_t mostSpheres = 50000, enoughSpheres = 4000; // more only where they are needed or asked for
 
 /// Of one layer in the mid-plane of a 2D mesh; empty: the shape's section with it is not that with the mesh's front and back.
 std::vector<SurfaceSphere> spheresInPlane(const StructureDefinition& s, const SceneFrame& frame, double spacing)
@@ -28,6 +28,21 @@ std::vector<SurfaceSphere> spheresInPlane(const StructureDefinition& s, const Sc
     return spheres;
 }
 
+/// Bodies that slide catch in the grooves between spheres: these lie as near to each other as their number allows. smallest: radius of the bodies' spheres [m].
+std::vector<SurfaceSphere> contactSpheres(const StructureDefinition& s, const SceneFrame& frame, double smallest)
+{
+    const double radius = s.sphereRadius;
+    const auto at = [&](double spacing) { return frame.isPlanar ? spheresInPlane(s, frame, spacing) : surfaceSpheres(*s.solid.shape, radius, spacing, 0.5*radius); };
+    if (s.sphereSpacing > 0) return at(s.sphereSpacing);
+    const double finest = (frame.isPlanar ? 0.125 : 0.25)*radius;
+    const std::size_t growth = frame.isPlanar ? 2 : 4;  // of their number, at half the spacing
+    double spacing = closedSpacing(radius, smallest);
+    std::vector<SurfaceSphere> spheres = at(spacing);
+    while (spheres.size() > 1 && growth*spheres.size() <= enoughSpheres && spacing > finest)
+        spheres = at(spacing = std::max(finest, 0.5*spacing));
+    return spheres;
+}
+
 } // namespace
 
 void readContactSpheres(const Foam::dictionary& dict, const SceneFrame& frame, StructureDefinition& structure)
@@ -41,17 +56,16 @@ void readContactSpheres(const Foam::dictionary& dict, const SceneFrame& frame, S
 
 MoverDefinition makeMover(const Foam::dictionary& dict, const SceneFrame& frame, const StructureDefinition& structure, double smallest)
 {
-    const double radius = structure.sphereRadius, spacing = structure.sphereSpacing > 0 ? structure.sphereSpacing : closedSpacing(radius, smallest);
     MoverDefinition mover;
     mover.name = structure.solid.name;
     mover.material = structure.material;
     mover.motion = structure.motion;
-    mover.spheres = frame.isPlanar ? spheresInPlane(structure, frame, spacing) : surfaceSpheres(*structure.solid.shape, radius, spacing, 0.5*radius);
+    mover.spheres = contactSpheres(structure, frame, smallest);
     if (mover.spheres.empty())
         failIn(dict, text("2D mesh: bodies feel moving structures that are boxes with a side along ", "xyz"[frame.planeAxis], ", cylinders along it, or unions of these.\n",
             "    Set 'contact off;' in it if the bodies do not reach it."));
     if (mover.spheres.size() > mostSpheres)
-        failIn(dict, text("Structure ", mover.name, " moves: bodies would feel it by ", mover.spheres.size(), " spheres of radius ", radius, " m; allowed: ", mostSpheres,
+        failIn(dict, text("Structure ", mover.name, " moves: bodies would feel it by ", mover.spheres.size(), " spheres of radius ", structure.sphereRadius, " m; allowed: ", mostSpheres,
             ".\n    Give larger ones, spheres { radius; spacing; }, or a smaller or thicker shape."));
     return mover;
 }

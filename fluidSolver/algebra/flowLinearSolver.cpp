@@ -143,7 +143,7 @@ struct FlowLinearSolver::Implementation
     double target(const std::vector<double>& x, double first, double norm)
     {
         double wanted = controls.tolerance*std::max(norm, first);   // fluid at rest that an inflow sets in motion has no right-hand side
-        const double smallest = negligible*wanted;
+        const double smallest = std::max(negligible*wanted, system.roundOff());
         // The right-hand side is mostly inertia over the time step, 150 times the forces in a vortex street: whoever looks at a solid wants these
         if (system.hasSolids())
         {

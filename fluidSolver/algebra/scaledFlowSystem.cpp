@@ -246,12 +246,21 @@ double ScaledFlowSystem::prescribedLevel(const std::vector<double>& x) const
 /// From a right-hand side what the level balances in it: tractions of open boundaries. No other rows know constant pressures.
 void ScaledFlowSystem::subtractLevel(double* r)
 {
+    constexpr double relative = 1e-13;  // of sums of products with the level over the tractions
+    roundOff_ = 0;
     if (level_ == 0) return;
     std::fill(pressureLocal_.begin(), pressureLocal_.end(), level_);
     product().gradient(pressureLocal_.data(), gradient_.data());
     const int D = B_ - 1;
+    double square = 0;
     for (int i = 0; i < mesh_.nOwned; ++i)
-        for (int d = 0; d < D; ++d) r[std::size_t(i)*B_ + d] -= gradient_[std::size_t(i)*D + d];
+        for (int d = 0; d < D; ++d)
+        {
+            const double traction = gradient_[std::size_t(i)*D + d];
+            r[std::size_t(i)*B_ + d] -= traction;
+            square += std::pow(traction*scale_[std::size_t(i)*B_ + d], 2);
+        }
+    roundOff_ = relative*std::sqrt(halo_.sum(square));
 }
 
 double ScaledFlowSystem::residual(const std::vector<double>& x, const std::vector<double>& velocity, double* r)

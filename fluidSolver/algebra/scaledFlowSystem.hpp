@@ -37,6 +37,8 @@ public:
     double residual(const std::vector<double>& x, const std::vector<double>& q, double* r);
     /// Of the last residual(): volume that surfaces sweep in basins without a prescribed pressure beyond what these can give [m^dim/s].
     double unbalancedVolume() const { return unbalancedVolume_; }
+    /// Of the last residual(): what round-off of the pressures' level leaves in it.
+    double roundOff() const { return roundOff_; }
     /// Norm of the scaled forces that change the motion of x, which the last residual() was of: its residual r and the pressure's rows. The right-hand side is mostly
     /// inertia over the time step.
     double forceNorm(const std::vector<double>& x, const double* r);
@@ -78,6 +80,7 @@ private:
 
     double unbalancedVolume_ = 0;
     double level_ = 0;                      // mean of the prescribed pressures [Pa]
+    double roundOff_ = 0;
     std::vector<double> scale_;             // nOwned*B: 1/sqrt(diagonal)
     std::vector<float> viscousPressure_;    // nOwned: inverse of the viscous part of the Schur complement, lumped; only preconditions
     std::vector<double> local_;             // work: nNodes*B, unscaled

@@ -17,13 +17,15 @@ struct PatchValues
     std::vector<double> alpha;      ///< nodes, phase field of fluid that enters
 };
 
+struct Cover;
+
 /// State a condition may depend on (flow rates over the wetted part, variable heights). Local nodes, halo up to date.
 struct BoundaryState
 {
     double time;
     const double* velocity; ///< nNodes*dim
     const double* alpha;    ///< nNodes
-    const double* solidDistance = nullptr;  ///< nNodes, negative inside; null: no solids [m]
+    const Cover* cover = nullptr;           ///< null: no solids
     const double* entering = nullptr;       ///< per node of the patch: phase field of what enters, PatchValues::alpha of the same time; null: that of the nodes
     double liquidInflow = 0;                ///< that the velocity of the patch is made of, where the level floats [m^3/s]
 };

@@ -2,7 +2,10 @@
 /// Integrals over the fluid part of a patch face.
 #pragma once
 
+#include "geometry/cover.hpp"
 #include "geometry/cutSimplex.hpp"
+
+#include <algorithm>
 
 namespace flotsam
 {
@@ -13,19 +16,26 @@ struct FaceMoments
 {
     double second[D*D], first[D];
 
-    /// solidDistance: from solids at the mesh's nodes (Cover::distance), null without; nodes: D of the face.
-    FaceMoments(const double* solidDistance, const int* nodes)
+    /// cover: null without solids; nodes: D of the face, which is the element's.
+    FaceMoments(const SimplexMesh& mesh, const Cover* cover, int element, const int* nodes)
     {
+        if (cover && !cover->patchFaces.empty() && takeCut(mesh, *cover, element, nodes)) return;
         double distance[D];
         int nSolid = 0;
         for (int k = 0; k < D; ++k)
         {
-            distance[k] = solidDistance ? solidDistance[nodes[k]] : 1;
+            distance[k] = cover ? cover->distance[nodes[k]] : 1;
             nSolid += distance[k] < 0;
         }
         if (nSolid == 0) fill(1);
         else if (nSolid == D) fill(0);
         else integrateCut(distance);
+        sumRows();
+    }
+
+private:
+    void sumRows()
+    {
         for (int k = 0; k < D; ++k)
         {
             first[k] = 0;
@@ -33,7 +43,19 @@ struct FaceMoments
         }
     }
 
-private:
+    bool takeCut(const SimplexMesh& mesh, const Cover& cover, int element, const int* nodes)
+    {
+        const int* corners = &mesh.elements[std::size_t(element)*(D + 1)];
+        int place[D], sum = 0;
+        for (int k = 0; k < D; ++k) sum += place[k] = int(std::find(corners, corners + D + 1, nodes[k]) - corners);
+        const CutPatchFace* face = patchFaceOf(&cover, element, D*(D + 1)/2 - sum);
+        if (!face) return false;
+        for (int k = 0; k < D; ++k)
+            for (int l = 0; l < D; ++l) second[k*D + l] = face->second[place[k]*(D + 1) + place[l]];
+        sumRows();
+        return true;
+    }
+
     void fill(double share)
     {
         for (int k = 0; k < D; ++k)

@@ -274,7 +274,7 @@ void FlowEquation::assembleOpenBoundaries()
         {
             const int* nodes = &faces.faceNodes[f*D];
             if (step_.gas && step_.cover->state[faces.faceElement[f]] == ElementState::Solid) continue;
-            const FaceMoments<D> moments(distancesOf(step_.cover), nodes);
+            const FaceMoments<D> moments(mesh_, step_.cover, faces.faceElement[f], nodes);
             double v[3];
             outwardVector(mesh_, faces, f, v);
             double pressure[D] = {};

@@ -53,7 +53,7 @@ struct WallFace
         area = std::sqrt(squared<D>(normal));
         for (int d = 0; d < D; ++d) normal[d] /= area;
         height = D*mesh.volume[e]/area;
-        const FaceMoments<D> moments(distancesOf(cover), face);
+        const FaceMoments<D> moments(mesh, cover, e, face);
         double mean[D] = {};
         int corner[D];
         for (int k = 0; k < D; ++k)

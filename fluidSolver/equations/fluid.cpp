@@ -56,7 +56,7 @@ void Fluid::setGeometry(const Cover* cover, const std::vector<Solid>* solids, bo
 
 void Fluid::evaluatePatches(double time)
 {
-    const BoundaryState state{time, state_.u.data(), alphaOfPatches().data(), distancesOf(cover_)};
+    const BoundaryState state{time, state_.u.data(), alphaOfPatches().data(), cover_};
     for (std::size_t p = 0; p < patches_.size(); ++p) patches_[p].evaluate(state, values_[p]);
 }
 

@@ -146,7 +146,7 @@ void Fluid::balancePatchPressures()
     sharp = alphaOfPatches();
     for (int i : planes_.nodes())
         if (isOfProfile(i)) sharp[i] = sharp[i] > 0.5;
-    const BoundaryState state{state_.time + time_.dt, state_.u.data(), sharp.data(), distancesOf(cover_)};
+    const BoundaryState state{state_.time + time_.dt, state_.u.data(), sharp.data(), cover_};
     for (std::size_t p = 0; p < patches_.size(); ++p)
     {
         if (patches_[p].pressure == BoundaryPatch::Pressure::Natural) continue;

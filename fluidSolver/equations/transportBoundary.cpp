@@ -20,7 +20,7 @@ template<int D>
 void TransportBoundary::addFaces(const MeshPatch& patch, const std::vector<double>& u, const Cover* cover)
 {
     const bool isMean = cover && cover->start;
-    const double* distance[2] = {distancesOf(isMean ? cover->start : cover), distancesOf(isMean ? cover->end : cover)};
+    const Cover* covers[2] = {isMean ? cover->start : cover, isMean ? cover->end : cover};
     for (std::size_t f = 0; f < patch.faceElement.size(); ++f)
     {
         const int* face = &patch.faceNodes[f*D];
@@ -36,7 +36,7 @@ void TransportBoundary::addFaces(const MeshPatch& patch, const std::vector<doubl
         }
         for (int k = 0; k < 1 + isMean; ++k)
         {
-            const FaceMoments<D> moments(distance[k], face);
+            const FaceMoments<D> moments(mesh_, covers[k], patch.faceElement[f], face);
             for (int ab = 0; ab < D*D; ++ab)
             {
                 nodal_[face[ab/D]] += moments.second[ab]*through[ab%D]/(1 + isMean);

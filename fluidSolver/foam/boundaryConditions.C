@@ -124,12 +124,12 @@ VelocityCondition open(const ConditionInput&) { return {BoundaryPatch::Velocity:
 
 /// Normal inflow `flow` through what solids leave of the patch, split over the nodes as `weight`; of the P1 flux `share` counts, as it does for the transport.
 void distributeFlow(const PatchNodes& patch, const Halo& halo, double flow, const std::vector<double>& weight, const std::vector<double>& share,
-    const double* solidDistance, const std::string& name, std::vector<double>& out)
+    const Cover* cover, const std::string& name, std::vector<double>& out)
 {
     const int dim = patch.mesh->dim;
     std::vector<double> outwards;
     for (std::size_t k = 0; k < patch.normal.size(); ++k) outwards.push_back(weight[k/dim]*patch.normal[k]);
-    const double outflow = halo.sum(patch.outflow(outwards, share, solidDistance));
+    const double outflow = halo.sum(patch.outflow(outwards, share, cover));
     const double area = halo.sum(patch.area());
     out.assign(outwards.size(), 0.0);
     if (flow == 0) return;
@@ -148,7 +148,7 @@ VelocityCondition flowRateVelocity(const ConditionInput& in)
         failIn(in.dict, "extrapolateProfile yes is not available: the velocity is uniform over the patch. Remove the entry.");
     return fixedVelocity([f = timeFunction<scalar>(in.dict, "volumetricFlowRate"), n = in.nodes, &halo = in.halo,
         all = std::vector<double>(in.nodes->nodes.size(), 1.0), name = in.patch.name()](const BoundaryState& state, std::vector<double>& out)
-        { distributeFlow(*n, halo, f->value(state.time), all, all, state.solidDistance, name, out); });
+        { distributeFlow(*n, halo, f->value(state.time), all, all, state.cover, name, out); });
 }
 
 /// Share of the inlet's velocity that the nodes of a patch have where `liquid` enters: all of it where a node or one that shares a face with it has a fifth of liquid, so that
@@ -172,7 +172,7 @@ VelocityCondition variableHeightVelocity(const ConditionInput& in)
     {
         std::vector<double> liquid; // the surface's nodes let gas in as well: what counts is the liquid
         for (std::size_t k = 0; k < n->nodes.size(); ++k) liquid.push_back(std::clamp(state.entering ? state.entering[k] : state.alpha[n->nodes[k]], 0.0, 1.0));
-        distributeFlow(*n, halo, flow(state.time), shareOfVelocity(*n, halo, liquid), liquid, state.solidDistance, name, out);
+        distributeFlow(*n, halo, flow(state.time), shareOfVelocity(*n, halo, liquid), liquid, state.cover, name, out);
     });
     condition.liquidInflow = flow;
     return condition;
@@ -281,7 +281,7 @@ PhaseCondition variableHeightPhase(const ConditionInput& in)
     {
         out = inside->values(halo, state.alpha);
         for (double& a : out) a = a < lower ? 0.0 : a > upper ? 1.0 : a;
-        if (!critical || !critical->raise(state.liquidInflow, state.solidDistance, out) || *isSaid) return;
+        if (!critical || !critical->raise(state.liquidInflow, state.cover, out) || *isSaid) return;
         *isSaid = true;
         Foam::Info << "Patch " << name << ": the stream inside is lower than the critical level of the " << state.liquidInflow << " m^3/s that enter, from " << state.time
             << " s on at least: they enter at that level. For a lower, faster stream: entry criticalInlet off, or its level as fixedValue (docs/dictionaries.md, Inflow)." << Foam::endl;

@@ -62,7 +62,7 @@ double CriticalLevel::below(double level, std::size_t node) const
 }
 
 /// Across the stream, below equidistant levels from the lowest to the highest node [m^2].
-std::array<double, CriticalLevel::nLevels> CriticalLevel::areas(const double* solidDistance) const
+std::array<double, CriticalLevel::nLevels> CriticalLevel::areas(const Cover* cover) const
 {
     const int dim = patch_.mesh->dim;
     std::array<double, nLevels> result{};
@@ -76,16 +76,18 @@ std::array<double, CriticalLevel::nLevels> CriticalLevel::areas(const double* so
     {
         int nodes[3];
         for (int k = 0; k < dim; ++k) nodes[k] = patch_.nodes[patch_.faceNodes[f*dim + k]];
-        dim == 2 ? addFace(f, FaceMoments<2>(solidDistance, nodes).first) : addFace(f, FaceMoments<3>(solidDistance, nodes).first);
+        const SimplexMesh& mesh = *patch_.mesh;
+        const int e = patch_.faceElement[f];
+        dim == 2 ? addFace(f, FaceMoments<2>(mesh, cover, e, nodes).first) : addFace(f, FaceMoments<3>(mesh, cover, e, nodes).first);
     }
     halo_.sum(result.data(), nLevels);
     return result;
 }
 
 /// Height [m] of the critical level: Q^2 dA/dz - g A^3 changes its sign; infinite where the whole patch is too small.
-double CriticalLevel::of(double flow, const double* solidDistance) const
+double CriticalLevel::of(double flow, const Cover* cover) const
 {
-    const auto area = areas(solidDistance);
+    const auto area = areas(cover);
     const double step = (highest_ - lowest_)/(nLevels - 1);
     const auto excess = [&](int m)
     {
@@ -98,10 +100,10 @@ double CriticalLevel::of(double flow, const double* solidDistance) const
     return lowest_ + step*(last + std::clamp(excess(last)/(excess(last) - excess(last + 1)), 0.0, 1.0));
 }
 
-bool CriticalLevel::raise(double flow, const double* solidDistance, std::vector<double>& alpha) const
+bool CriticalLevel::raise(double flow, const Cover* cover, std::vector<double>& alpha) const
 {
     if (flow <= 0 || gravity_ == 0) return false;
-    const double level = of(flow, solidDistance);
+    const double level = of(flow, cover);
     bool wasLower = false;
     for (std::size_t k = 0; k < alpha.size(); ++k)
     {

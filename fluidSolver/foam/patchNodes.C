@@ -50,12 +50,12 @@ std::vector<double> normalsOf(const SimplexMesh& mesh, const Halo& halo, const M
 
 /// int share u.n over the fluid part of face f.
 template<int D>
-double faceOutflow(const PatchNodes& patch, std::size_t f, const std::vector<double>& velocity, const std::vector<double>& share, const double* solidDistance)
+double faceOutflow(const PatchNodes& patch, std::size_t f, const std::vector<double>& velocity, const std::vector<double>& share, const Cover* cover)
 {
     const int* corners = &patch.faceNodes[f*D];
     int nodes[D];
     for (int k = 0; k < D; ++k) nodes[k] = patch.nodes[corners[k]];
-    const FaceMoments<D> moments(solidDistance, nodes);
+    const FaceMoments<D> moments(*patch.mesh, cover, patch.faceElement[f], nodes);
     double sum = 0;
     for (int ab = 0; ab < D*D; ++ab)
         for (int d = 0; d < D; ++d) sum += share[corners[ab/D]]*moments.second[ab]*velocity[std::size_t(corners[ab%D])*D + d]*patch.faceArea[f*D + d];
@@ -77,6 +77,7 @@ PatchNodes makePatchNodes(const SimplexMesh& mesh, const Halo& halo, const MeshP
             corners[k] = static_cast<int>(std::lower_bound(result.nodes.begin(), result.nodes.end(), patch.faceNodes[f*mesh.dim + k]) - result.nodes.begin());
         result.facesAtNodes.insert(result.facesAtNodes.end(), corners, corners + mesh.dim);
         if (!patch.isOwnedFace[f]) continue;
+        result.faceElement.push_back(patch.faceElement[f]);
         result.faceNodes.insert(result.faceNodes.end(), corners, corners + mesh.dim);
         double a[3];
         outwardVector(mesh, patch, f, a);
@@ -102,11 +103,11 @@ std::vector<double> PatchNodes::largestAround(const Halo& halo, const std::vecto
     return result;
 }
 
-double PatchNodes::outflow(const std::vector<double>& velocity, const std::vector<double>& share, const double* solidDistance) const
+double PatchNodes::outflow(const std::vector<double>& velocity, const std::vector<double>& share, const Cover* cover) const
 {
     double sum = 0;
     for (std::size_t f = 0; f*mesh->dim < faceNodes.size(); ++f)
-        sum += mesh->dim == 2 ? faceOutflow<2>(*this, f, velocity, share, solidDistance) : faceOutflow<3>(*this, f, velocity, share, solidDistance);
+        sum += mesh->dim == 2 ? faceOutflow<2>(*this, f, velocity, share, cover) : faceOutflow<3>(*this, f, velocity, share, cover);
     return sum;
 }
 

@@ -190,6 +190,44 @@ CoverBuilder::CuttingFaces<dim> CoverBuilder::facesOf(const Others& others, cons
     return faces;
 }
 
+/// The part of a face that is in solids: of each alone, less what pairs of them share.
+template <int dim>
+void CoverBuilder::cutPatchFaces(Cover& cover, int element, const std::vector<double>& distances, const std::vector<int>& faceEnd) const
+{
+    constexpr int n = dim + 1;
+    const int nSolids = static_cast<int>(faceEnd.size());
+    const auto first = [&](int s) { return s == 0 ? 0 : faceEnd[s - 1]; };
+    for (int corner = 0; corner < n; ++corner)
+    {
+        if (elementFace_[std::size_t(element) * n + corner] >= 0) continue;
+        const double* g = &mesh_.gradN[(std::size_t(element) * n + corner) * dim];
+        const double area = dim * mesh_.volume[element] * Eigen::Map<const Eigen::Matrix<double, dim, 1>>(g).norm();
+        CutPatchFace& face = cover.patchFaces.emplace_back(CutPatchFace{element, corner, {}});
+        for (int a = 0; a < n; ++a)
+            for (int b = 0; b < n; ++b)
+                if (a != corner && b != corner) face.second[a * n + b] = (a == b ? 2. : 1.) / (dim * n);
+        const auto subtract = [&](double sign, const std::vector<double>& values)
+        {
+            std::vector<SimplexFacet<dim>> parts;
+            addFacePart<dim>(corner, values.data(), static_cast<int>(values.size()) / n, mesh_.volume[element], verticesOf<dim>(element).data(), &mesh_.gradN[std::size_t(element) * n * dim], parts);
+            for (const SimplexFacet<dim>& part : parts)
+                for (int q = 0; q < dim; ++q)
+                    for (int ab = 0; ab < n * n; ++ab) face.second[ab] -= sign * part.weight[q] / area * part.shape[q][ab / n] * part.shape[q][ab % n];
+        };
+        for (int s = 0; s < nSolids; ++s)
+        {
+            const std::vector<double> own(distances.begin() + first(s) * n, distances.begin() + faceEnd[s] * n);
+            subtract(1, own);
+            for (int t = 0; t < s; ++t)
+            {
+                std::vector<double> both = own;
+                both.insert(both.end(), distances.begin() + first(t) * n, distances.begin() + faceEnd[t] * n);
+                subtract(-1, both);
+            }
+        }
+    }
+}
+
 template <int dim>
 void CoverBuilder::cutElementOfSolids(Cover& cover, const std::vector<Solid>& solids, int element) const
 {
@@ -209,6 +247,7 @@ void CoverBuilder::cutElementOfSolids(Cover& cover, const std::vector<Solid>& so
     const Others others = othersIn(cover, solids, element);
     if (others.n > 0) add(facesOf<dim>(others, solids, element), others.n == 1 && others.solid[0] >= 0 ? others.solid[0] : -1);
     if (solidOf.empty()) return;
+    cutPatchFaces<dim>(cover, element, distances, faceEnd);
     const EdgeCut<dim> cut = cutSimplexOfSolids<dim>(distances.data(), faceEnd, mesh_.volume[element], verticesOf<dim>(element).data(), &mesh_.gradN[std::size_t(element) * (dim + 1) * dim]);
     storeCut<dim>(cover, solids, element, cut, cut.facets.data(), static_cast<int>(cut.facets.size()), solidOf.data());
 }

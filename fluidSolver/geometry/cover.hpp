@@ -54,6 +54,13 @@ struct CoveredVolume
     double second[16];  ///< int N_a N_b, as in CutElement
 };
 
+/// Face on the mesh's boundary, opposite to `corner`, of an element that is cut solid by solid.
+struct CutPatchFace
+{
+    int element, corner;
+    double second[16];  ///< int N_a N_b over its fluid part, over the area of the whole face; by the element's corners
+};
+
 /// Interior face of two active elements of which at least one is cut.
 struct GhostFace { int face; double area; double normal[3]; /* from element[0] to element[1] */ };
 
@@ -73,6 +80,7 @@ struct Cover
     std::vector<int> cutIndex;          ///< nElements: position in `cuts`, -1 if not cut
     std::vector<CutElement> cuts;
     std::vector<CutFacet> facets;       ///< a 3D quadrilateral cut is two facets
+    std::vector<CutPatchFace> patchFaces;       ///< sorted by element; others are cut by the distances at their nodes
     std::vector<GhostFace> ghostFaces;
     std::vector<CoveredFacet> coveredFacets;    ///< of owned and of inner elements
     std::vector<CoveredVolume> coveredVolumes;  ///< likewise
@@ -84,8 +92,8 @@ struct Cover
     long nSharedElements = 0;           ///< cut elements with nodes in two different solids (gap below the mesh), owned, all ranks
 };
 
-/// nNodes; null without solids.
-inline const double* distancesOf(const Cover* cover) { return cover ? cover->distance.data() : nullptr; }
+/// Null: cut by the distances at its nodes, or not at all. cover null: no solids.
+const CutPatchFace* patchFaceOf(const Cover* cover, int element, int corner);
 
 /// Of element e [m^dim]. cover null: no solids.
 inline double fluidVolume(const SimplexMesh& mesh, const Cover* cover, int e)

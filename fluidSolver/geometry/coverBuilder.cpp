@@ -224,6 +224,7 @@ void CoverBuilder::restoreFixedCover()
         for (int a = 0; a <= mesh_.dim; ++a) cover_.isActiveNode[nodesOf(e)[a]] = fixedCover_.isActiveNode[nodesOf(e)[a]];
     }
     cover_.filmNodes.clear();
+    cover_.patchFaces.clear();
     touchedNodes_.clear();
     touchedElements_.clear();
 }
@@ -251,6 +252,7 @@ const Cover& CoverBuilder::cutMovingSolids(const std::vector<Solid>& solids)
         account(cover_, e, 1, totals);
     }
     if (isNeedless_) cutFarElements(solids);
+    std::sort(cover_.patchFaces.begin(), cover_.patchFaces.end(), [](const CutPatchFace& a, const CutPatchFace& b) { return a.element < b.element; });
     findActiveNodes(cover_, touchedElements_);
     shareActiveNodes(cover_);
     findGhostFaces(cover_);

@@ -119,6 +119,7 @@ private:
     Others othersIn(const Cover& cover, const std::vector<Solid>& solids, int element) const;
     template <int dim> CuttingFaces<dim> facesOf(const Others& others, const std::vector<Solid>& solids, int element) const;
     template <int dim> void cutElementOfSolids(Cover& cover, const std::vector<Solid>& solids, int element) const;
+    template <int dim> void cutPatchFaces(Cover& cover, int element, const std::vector<double>& distances, const std::vector<int>& faceEnd) const;
     bool isSharp(const Solid& solid) const;
     unsigned facesBeyond(const Solid& solid) const;
     bool needsOffsets(const Solid& solid) const;

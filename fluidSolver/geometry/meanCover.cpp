@@ -49,6 +49,7 @@ void keepForMean(const Cover& cover, Cover& kept)
     kept.cutIndex = cover.cutIndex;
     kept.cuts = cover.cuts;
     kept.facets = cover.facets;
+    kept.patchFaces = cover.patchFaces;
     kept.isActiveNode = cover.isActiveNode;
 }
 

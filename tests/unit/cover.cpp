@@ -383,6 +383,24 @@ TEST_CASE("nodes in a plate see both of its sides if it is thinner than the elem
     }
 }
 
+TEST_CASE("edges on the mesh's nodes do not make a post thin")
+{
+    for (const int dim : {2, 3})
+        for (const double shift : {0.0, 1e-16, -1e-16, 1e-9, -1e-9, 1e-4, 0.003})
+        {
+            const SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, dim, {10, 10, 10}, {0, 0, 0}, {1, 1, 1});
+            const NodeGraph graph(mesh);
+            const Halo halo(mesh, MPI_COMM_WORLD);
+            std::vector<Solid> solids(1);
+            solids[0].shape = makeBox(Vec3::Zero(), dim == 2 ? Vec3(0.6, 1.4, 1) : Vec3(0.6, 0.6, 1.4));  // through the bottom
+            for (const Vec3& offset : {Vec3(shift, shift, 0), Vec3(shift, -shift, 0), Vec3(-shift, shift, 0)})
+            {
+                solids[0].pose.position = Vec3(0.5, dim == 2 ? 0.2 : 0.5, 0.2) + offset;
+                CHECK(findSharedNodes(mesh, graph, halo, cutMesh(mesh, graph, halo, solids), 1)[0].count == 0);
+            }
+        }
+}
+
 TEST_CASE("a body within an element of a structure does not make it thin")
 {
     for (const int dim : {2, 3})

@@ -313,6 +313,9 @@ TEST_CASE("bodies feel structures that move by their spheres, behind the walls")
     for (const SurfaceSphere& sphere : spheres("box; size (0.1 0.2 3);")) CHECK(std::abs(sphere.centre.z() - 0.05) < 1e-14);   // one layer
     for (const SurfaceSphere& sphere : spheres("union; parts { flap { type box; size (0.1 0.2 3); } lip { type box; centre (0.1 -0.05 0); size (0.2 0.1 3); } }"))
         CHECK(std::abs(sphere.centre.z() - 0.05) < 1e-14);
+    const auto plate = spheres("box; size (0.1 0.2 3);");
+    for (const SurfaceSphere& a : plate)    // grooves of an eighth of their radius
+        CHECK(std::any_of(plate.begin(), plate.end(), [&](const SurfaceSphere& b) { return &a != &b && (a.centre - b.centre).norm() <= 0.125*a.radius*(1 + 1e-9); }));
     const auto disc = spheres("cylinder; end1 (0 0 -1); end2 (0 0 1); radius 0.2;");
     REQUIRE(disc.size() == 1);
     CHECK(disc[0].radius == 0.2);

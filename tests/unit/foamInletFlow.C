@@ -53,7 +53,7 @@ TEST_CASE("an inlet whose level floats does not fall below the critical one")
                 BoundaryScene s(edits, mesh);
                 const int dim = s.adapter.mesh.dim;
                 std::fill(s.alpha.begin(), s.alpha.end(), 0.0);
-                for (int i = 0; bed > 0 && i < s.adapter.mesh.nNodes; ++i) s.distance.push_back(s.adapter.mesh.x[dim*i + 1] - bed);
+                for (int i = 0; bed > 0 && i < s.adapter.mesh.nNodes; ++i) s.cover.distance.push_back(s.adapter.mesh.x[dim*i + 1] - bed);
                 const PatchValues v = s.values("inlet");
                 double fastest = 0;
                 for (std::size_t k = 0; k < v.velocity.size(); k += dim) fastest = std::max(fastest, v.velocity[k]);
@@ -73,12 +73,12 @@ TEST_CASE("a flow rate enters above what covers the lower part of the patch")
         for (int i = 0; i < s.adapter.mesh.nNodes; ++i)
         {
             const double distance = s.adapter.mesh.x[2*i + 1] - height;
-            s.distance.push_back(std::abs(distance) < 1e-12 ? -1e-12 : distance);
+            s.cover.distance.push_back(std::abs(distance) < 1e-12 ? -1e-12 : distance);
         }
         for (double u : inflow(s.values("inlet"))) CHECK(u == near(0.05/(0.1*(1 - height)), 1e-11));
     }
     BoundaryScene covered;
-    covered.distance.assign(covered.adapter.mesh.nNodes, -1);
+    covered.cover.distance.assign(covered.adapter.mesh.nNodes, -1);
     if (isSerial()) CHECK(has(messageOf([&] { covered.values("inlet"); }), "solids cover it"));
 }
 
