@@ -136,11 +136,26 @@ void checkProcessorTimes(const Foam::Time& runTime)
         << Foam::exit(Foam::FatalError);
 }
 
+/// Latest time before the start time with a file of that name; empty: none. Function objects leave folders with what they write alone.
+Foam::word earlierTimeWith(const Foam::Time& runTime, const std::string& name)
+{
+    Foam::word found;
+    for (const Foam::instant& time : runTime.times())
+    {
+        const Foam::fileName file = runTime.path()/time.name()/name;
+        if (time.name() != runTime.constant() && time.value() < runTime.value() && (Foam::isFile(file) || Foam::isFile(file + ".gz"))) found = time.name();
+    }
+    return found;
+}
+
 /// The field's file, and what it is for.
 void checkPhaseFile(const Foam::polyMesh& mesh, const std::string& name)
 {
     const Foam::fileName folder = startFolder(mesh.time());
     if (Foam::isFile(folder/name) || Foam::isFile(folder/(name + ".gz"))) return;
+    if (const Foam::word earlier = earlierTimeWith(mesh.time(), name); !earlier.empty())
+        FatalErrorInFunction << "Time " << mesh.time().timeName() << " has no " << name << ", time " << earlier << " has: is it a function object's folder?" << Foam::nl
+            << "    Set startFrom startTime; startTime " << earlier << "; in system/controlDict, or remove folder " << mesh.time().timePath() << '.' << Foam::exit(Foam::FatalError);
     FatalErrorInFunction << "File " << mesh.time().timePath()/name << " is missing: the volume fraction of the liquid, first of phases in transportProperties." << Foam::nl
         << "    Give it as interFoam does, e.g. dimensions [0 0 0 0 0 0 0]; internalField uniform 0; and fill it with setFields, setExprFields or setAlphaField."
         << Foam::exit(Foam::FatalError);

@@ -38,6 +38,7 @@ refused wallLaw 'setNumerics . "wallLaw on; wallGamma 0;"' \
     fvSolution wallLaw 'wallGamma is 0'
 refused missingField 'rm 0/p_rgh' p_rgh
 refused missingPhase 'rm 0/alpha.water' alpha.water 'is missing' setFields
+refused functionObjectsFolder 'setEntry system/controlDict startFrom latestTime; mkdir 0.5; cp 0/U 0.5' 'Time 0.5 has no alpha.water' 'time 0 has' 'startTime 0;'
 refused laterOnProcessors 'mkdir -p processor0/0.5' processor0 'holds time 0.5' 'reconstructPar -latestTime'
 refused alphaRange 'sed "s/^internalField .*/internalField uniform 2;/" 0.orig/alpha.water > 0/alpha.water' alpha.water 'from 0 to 2' 'from 0 to 1'
 refused missingTime 'setEntry system/controlDict startFrom startTime; setEntry system/controlDict startTime 0.7' \
