@@ -142,7 +142,7 @@ struct FlowLinearSolver::Implementation
     /// The residual to stop at, given that of the start (in rhs, norm `first`) and the norm of the right-hand side.
     double target(const std::vector<double>& x, double first, double norm)
     {
-        double wanted = controls.tolerance*std::max(norm, first);   // fluid at rest that an inflow sets in motion has no right-hand side
+        double wanted = controls.tolerance*norm;
         const double smallest = std::max(negligible*wanted, system.roundOff());
         // The right-hand side is mostly inertia over the time step, 150 times the forces in a vortex street: whoever looks at a solid wants these
         if (system.hasSolids())
