@@ -177,6 +177,9 @@ void start(CoupledStep& step, RunOutput& output, const FoamFields& fields, Foam:
     runTime.setTime(step.fluid().state().time, runTime.timeIndex()); // OpenFOAM has it from the folder's name
 }
 
+/// Steps that end at a write time may be half as long as wanted; what follows grows from this multiple of them at most: BDF2 and the explicit parts bear no jump by 2.4.
+constexpr double longestAfterWrite = 1.5;
+
 /// limit: word of nextTimeStep().
 void checkTimeStep(double wanted, const std::string& limit, const TimeControls& time, const CoupledStep& step)
 {
@@ -269,7 +272,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         const double before = used;
         const StepResult result = advance(step, time, used, output);
         if (used < before) limit = "retry";
-        dt = limit == "write" ? wanted : used;
+        dt = limit == "write" ? std::min(wanted, longestAfterWrite*used) : used;
         writeTimes.advance(used);
         step.fluid().state().time = runTime.value(); // OpenFOAM's clock, to the last digit
 

@@ -154,7 +154,7 @@ void checkPhaseFile(const Foam::polyMesh& mesh, const std::string& name)
     const Foam::fileName folder = startFolder(mesh.time());
     if (Foam::isFile(folder/name) || Foam::isFile(folder/(name + ".gz"))) return;
     if (const Foam::word earlier = earlierTimeWith(mesh.time(), name); !earlier.empty())
-        FatalErrorInFunction << "Time " << mesh.time().timeName() << " has no " << name << ", time " << earlier << " has: is it a function object's folder?" << Foam::nl
+        FatalErrorInFunction << "Time " << mesh.time().timeName() << " has no " << name.c_str() << ", time " << earlier << " has: is it a function object's folder?" << Foam::nl
             << "    Set startFrom startTime; startTime " << earlier << "; in system/controlDict, or remove folder " << mesh.time().timePath() << '.' << Foam::exit(Foam::FatalError);
     FatalErrorInFunction << "File " << mesh.time().timePath()/name << " is missing: the volume fraction of the liquid, first of phases in transportProperties." << Foam::nl
         << "    Give it as interFoam does, e.g. dimensions [0 0 0 0 0 0 0]; internalField uniform 0; and fill it with setFields, setExprFields or setAlphaField."

@@ -87,15 +87,15 @@ otherBodies edge 'sed -i "s/position (-0.002 -0.018/position (-0.003 -0.018/" co
 otherBodies edge 'sed -i "s/size (0.01 0.01 0.05)/size (0.012 0.01 0.05)/" constant/bodies'
 otherBodies bar 'sed -i "s/density .*590;/density 800;/" constant/bodies'
 
-# The paper's transport, and a round body, whose cut is corrected. Steps grow; write times count from the start, 0.005 s.
+# The paper's transport, as long as it is stable here (0.02 s), and a round body, whose cut is corrected. Steps grow; write times count from the start, 0.005 s.
 makeFloatingBar growing
 setNumerics growing 'dualCellTransport off;'
 sed -i 's/type box; size (0.02 0.02 0.05);/type cylinder; end1 (0 0 -0.025); end2 (0 0 0.025); radius 0.012;/' growing/constant/bodies
-for entry in 'deltaT 1e-4' 'startTime 0.005' 'startFrom latestTime' 'writeInterval 0.01'; do
+for entry in 'deltaT 1e-4' 'startTime 0.005' 'startFrom latestTime' 'writeInterval 0.0075'; do
     setEntry growing/system/controlDict "${entry% *}" "${entry#* }"
 done
 mv growing/0 growing/0.005
-stopAndGoOn growing 0.015 0.025
+stopAndGoOn growing 0.0125 0.02
 
 for ranks in 1 2; do
     makeJam jam$ranks
