@@ -202,7 +202,7 @@ TEST_CASE("what an edge that comes down to the floor loses grows with its way, w
             box.pose.orientation = Eigen::AngleAxisd(angle, Vec3::UnitZ());
             box.pose.position = Vec3(x, height + 0.25*std::sin(angle) + 0.15*std::cos(angle), 0.5);
             const double volume = room.cut(box).solidVolume[0];
-            if (before >= 0) CHECK(std::abs(volume - before) < 0.03*h*h);
+            if (before >= 0) CHECK(std::abs(volume - before) < 0.012*h*h);    // 0.0084; lifted all at once 0.093
             before = volume;
         }
     }
