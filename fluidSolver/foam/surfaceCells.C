@@ -32,7 +32,6 @@ SurfaceCells::Kind SurfaceCells::kindOf(double fraction)
     return fraction > 0.5 ? Full : Empty;
 }
 
-/// Number of partly filled, full and empty cells at each node.
 std::vector<double> SurfaceCells::touchingCells(const std::vector<double>& fraction) const
 {
     std::vector<double> touches(nKinds*std::size_t(mesh_.nNodes), 0.0);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam/surfaceFromCells.H"
 
+#include "foam/profileLevel.H"
 #include "foam/surfaceCells.H"
 #include "geometry/cutSimplex.hpp"
-
-#include <Eigen/QR>
 
 #include <algorithm>
 #include <array>
@@ -19,13 +18,12 @@ namespace
 constexpr int maxSweeps = 200;          // a plane is found to round-off in 20 to 100
 constexpr double smallestChange = 1e-13;  // of the level, per sweep, over the common length
 constexpr int patience = 10;            // sweeps in which the change must halve: a surface that is no plane settles at a finite one
-constexpr int nMoments = SurfaceCells::mostComponents;
 
 class Reconstruction
 {
 public:
     Reconstruction(const MeshAdapter& adapter, const Halo& halo, const std::vector<double>& fraction)
-    :   adapter_(adapter), mesh_(adapter.mesh), halo_(halo), cells_(adapter, halo, fraction)
+    :   adapter_(adapter), mesh_(adapter.mesh), halo_(halo), fraction_(fraction), cells_(adapter, halo, fraction)
     {}
 
     void run(std::vector<double>& alpha)
@@ -34,7 +32,7 @@ public:
         cells_.dropMixtures(alpha);
         std::vector<double> level(alpha.size());
         for (std::size_t i = 0; i < level.size(); ++i) level[i] = alpha[i] - 0.5;
-        followProfiles(level);
+        followProfiles(adapter_, halo_, cells_, fraction_, level);
         double change = 1e300, before = 1e300;
         for (int sweep = 1; sweep <= maxSweeps && change > smallestChange; ++sweep)
         {
@@ -48,81 +46,6 @@ public:
     }
 
 private:
-    /// Level of the nodes of profiles: of a tanh profile atanh(2 alpha - 1) is linear, so means of the cells' values, carried to the node by their gradients, are
-    /// exact on any mesh. (Means of alpha itself leave a level surface uneven beside cells of other sizes.)
-    void followProfiles(std::vector<double>& level) const
-    {
-        if (!halo_.any(!cells_.profile().empty())) return;
-        const double unit = 8*std::atanh(1 - 2*SurfaceCells::sharp); // keeps the level within 1/2, beyond the profile's last cells as well
-        std::vector<double> value;
-        std::vector<Vec3> centre;
-        for (const SurfaceCell& p : cells_.profile())
-        {
-            value.push_back(std::atanh(2*p.fraction - 1)/unit);
-            centre.push_back(cells_.centroid(p));
-        }
-        const std::vector<Vec3> slope = leastSquaresGradients(value, centre);
-        const std::vector<double> nodal = cells_.toNodes(cells_.profile(), 1, [&](std::size_t k, int i, double* result)
-        {
-            *result = value[k] + slope[k].dot(cells_.point(i) - centre[k]);
-        });
-        for (std::size_t i = 0; i < level.size(); ++i)
-            if (nodal[2*i + 1] > 0) level[i] = std::clamp(nodal[2*i], -0.5, 0.5);
-    }
-
-    /// Of values of the profiles' cells, from those around each of its nodes: exact of linear values.
-    std::vector<Vec3> leastSquaresGradients(const std::vector<double>& value, const std::vector<Vec3>& centre) const
-    {
-        // moments about the node: r, value, r r, r value
-        const std::vector<double> moments = cells_.toNodes(cells_.profile(), nMoments, [&](std::size_t k, int i, double* m)
-        {
-            const Vec3 r = centre[k] - cells_.point(i);
-            *m++ = value[k];
-            for (int a = 0; a < 3; ++a)
-            {
-                *m++ = r[a];
-                *m++ = r[a]*value[k];
-                for (int b = a; b < 3; ++b) *m++ = r[a]*r[b];
-            }
-        });
-        std::vector<Vec3> result;
-        for (std::size_t k = 0; k < cells_.profile().size(); ++k)
-        {
-            double weight = 0, mean = 0;
-            Vec3 first = Vec3::Zero(), mixed = Vec3::Zero();
-            Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
-            for (int i : cells_.profile()[k].nodes)
-            {
-                const double* m = &moments[(nMoments + 1)*std::size_t(i)];
-                const double w = m[nMoments];
-                const Vec3 shift = cells_.point(i) - centre[k];
-                const double nodeMean = *m++;
-                Vec3 r, rValue;
-                Eigen::Matrix3d rr;
-                for (int a = 0; a < 3; ++a)
-                {
-                    r[a] = *m++;
-                    rValue[a] = *m++;
-                    for (int b = a; b < 3; ++b) rr(a, b) = rr(b, a) = *m++;
-                }
-                weight += w;
-                mean += w*nodeMean;
-                first += w*(r + shift);
-                mixed += w*(rValue + nodeMean*shift);
-                second += w*(rr + r*shift.transpose() + shift*r.transpose() + shift*shift.transpose());
-            }
-            mean /= weight;
-            first /= weight;
-            const Eigen::Matrix3d spread = second/weight - first*first.transpose();
-            // of least length where the cells lie in a plane or in a row
-            Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix3d> solve;
-            solve.setThreshold(1e-6);
-            solve.compute(spread);
-            result.push_back(solve.solve(mixed/weight - mean*first));
-        }
-        return result;
-    }
-
     double along(const std::array<double, 3>& normal, int node) const
     {
         double sum = 0;
@@ -273,6 +196,7 @@ private:
     const MeshAdapter& adapter_;
     const SimplexMesh& mesh_;
     const Halo& halo_;
+    const std::vector<double>& fraction_;
     SurfaceCells cells_;
 };
 

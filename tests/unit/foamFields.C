@@ -318,6 +318,44 @@ TEST_CASE("a smooth profile over several cells comes back as the plane it was ma
         }
 }
 
+TEST_CASE("smooth levels keep to both sides of an upright side, which stays where it is")
+{
+    Scene s;
+    const SimplexMesh& mesh = s.adapter.mesh;
+    const std::size_t n = mesh.dim + 1;
+    constexpr double h = 0.1, side = 1, thickness = 0.7*h, left = 0.613; // of the channel's cells
+    for (const double right : {-10., 0.213, 0.413})
+    {
+        const auto level = [&](double x) { return x < side ? left : right; };
+        const auto fill = [&](double x, double y) { return 0.5*(1 + std::tanh((level(x) - y)/thickness)); };
+        std::vector<double> fraction, alpha(mesh.nNodes);
+        for (const Foam::vector& x : s.foam.mesh().cellCentres()) fraction.push_back(fill(x.x(), x.y()));
+        for (int i = 0; i < mesh.nNodes; ++i) alpha[i] = 0.5*(fill(mesh.x[2*i] - h/2, mesh.x[2*i + 1]) + fill(mesh.x[2*i] + h/2, mesh.x[2*i + 1]));
+        reconstructSurface(s.adapter, s.halo, fraction, alpha);
+        double worst = 0, worstSide = 0, nSide = 0;
+        for (int e = 0; e < mesh.nElements; ++e)
+        {
+            const int* nodes = &mesh.elements[e*n];
+            for (std::size_t a = 0; mesh.isOwnedElement[e] && a < n; ++a)
+            {
+                const int i = nodes[a], j = nodes[(a + 1) % n];
+                if ((alpha[i] >= 0.5) == (alpha[j] >= 0.5)) continue;
+                const double at = (alpha[i] - 0.5)/(alpha[i] - alpha[j]);
+                const double x = mesh.x[2*i] + at*(mesh.x[2*j] - mesh.x[2*i]), y = mesh.x[2*i + 1] + at*(mesh.x[2*j + 1] - mesh.x[2*i + 1]);
+                const double nearest = std::min(mesh.x[2*i], mesh.x[2*j]), farthest = std::max(mesh.x[2*i], mesh.x[2*j]);
+                if (farthest < side - 1e-9 || nearest > side + 1e-9) worst = std::max(worst, std::abs(y - level(x)));
+                if (y > left - h || y < right + h) continue;
+                worstSide = std::max(worstSide, std::abs(x - side));
+                ++nSide;
+            }
+        }
+        CAPTURE(right);
+        CHECK(s.halo.max(worst) < 1e-3*h);
+        CHECK(s.halo.max(worstSide) < 0.1*h);  // exactly, but where the profile meets full cells
+        CHECK((right > left - 3*h || s.halo.sum(nSide) > 0));
+    }
+}
+
 TEST_CASE("no surface comes near nodes whose cells are all empty, as above a column little wider than a cell")
 {
     Scene s;
