@@ -7,6 +7,13 @@
 namespace flotsam
 {
 
+/// Liquid of a start field that cells were given.
+struct StartLiquid
+{
+    std::vector<double> volume;         ///< nNodes: of the shares of the nodes in the cells [m^dim]; empty: as alpha at the nodes says
+    std::vector<char> isAtSide;         ///< nNodes: beside an upright side of a smooth surface; empty: there is none
+};
+
 struct FlowState
 {
     double time = 0;
@@ -15,7 +22,7 @@ struct FlowState
     std::vector<double> p, pOld;        ///< nNodes pressure at t^n, t^(n-1) [Pa] (full pressure)
     std::vector<double> alpha, alphaOld; ///< nNodes phase field, 1 liquid
     std::vector<double> alphaOlder;     ///< set as a step begins: alphaOld until then
-    double startLiquid = -1;            ///< volume of a sharp start field [m^dim]; negative: that of alpha at the nodes
+    StartLiquid startLiquid;            ///< of a start field that is not yet the phase field's profile
     std::vector<double> fineScale, fineScaleOld; ///< nElements*dim: u' = -tau r_m of the last two solves [m/s]
 };
 

@@ -36,7 +36,11 @@ void Fluid::start(FlowState state, bool isSharp)
     if (state_.uOld.size() != n) state_.uOld = state_.u;
     if (state_.pOld.size() != state_.p.size()) state_.pOld = state_.p;
     if (!fluid_.isTwoPhase) state_.alpha.assign(mesh_.nNodes, 1.0);
-    else if (isSharp) makeStartProfile(mesh_, graph_, halo_, transport_.width(), state_.alpha, state_.startLiquid, profileCells());
+    else if (isSharp)
+    {
+        makeStartProfile(mesh_, graph_, halo_, transport_.width(), state_.alpha, state_.startLiquid, profileCells());
+        state_.startLiquid = {};
+    }
     if (isSharp || state_.alphaOld.size() != state_.alpha.size()) state_.alphaOld = state_.alphaOlder = state_.alpha;
     const std::size_t fine = std::size_t(mesh_.nElements)*mesh_.dim;
     if (state_.fineScale.size() != fine)

@@ -21,6 +21,9 @@ constexpr double profileWidths = 35;
 
 constexpr double ringShare = 0.6;
 
+/// Parts of the surface whose volumes are kept apart, as StartLiquid::isAtSide numbers them.
+enum { Level, Side, nParts };
+
 constexpr double none = std::numeric_limits<double>::infinity();
 
 /// Of nodes of elements that the surface cuts: distance from the zero of the level's linear interpolation, the least of those of the elements [m]; elsewhere `none`.
@@ -88,34 +91,43 @@ double profileDistance(const SimplexMesh& mesh, const InterfacePlanes& planes, i
     return std::copysign(std::sqrt(s), level);
 }
 
+/// The surface as it was found, and the nodes of one part of it.
+struct StartSurface
+{
+    const std::vector<double> &volume, &width;
+    const std::vector<ProfileSlab>& slabs;
+    const std::vector<char>& part;  ///< number of the part of every node
+
+    ProfileSlab shifted(int i, double shift) const { return {slabs[i].middle + shift/width[i], slabs[i].thickness}; }
+};
+
 /// {int alpha, d(int alpha)/d(shift)} over owned nodes of all ranks, for d shifted by `shift` [m].
-std::array<double, 2> volumeOfProfile(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& volume,
-    const std::vector<ProfileSlab>& slabs, const std::vector<double>& width, double shift)
+std::array<double, 2> volumeOfProfile(const SimplexMesh& mesh, const Halo& halo, const StartSurface& surface, int part, double shift)
 {
     double sums[2] = {0, 0};
     for (int i = 0; i < mesh.nOwned; ++i)
     {
-        const ProfileSlab slab{slabs[i].middle + shift/width[i], slabs[i].thickness};
-        sums[0] += volume[i]*slab.mean();
-        sums[1] += volume[i]*slab.slope()/width[i];
+        if (surface.part[i] != part) continue;
+        const ProfileSlab slab = surface.shifted(i, shift);
+        sums[0] += surface.volume[i]*slab.mean();
+        sums[1] += surface.volume[i]*slab.slope()/surface.width[i];
     }
     halo.sum(sums, 2);
     return {sums[0], sums[1]};
 }
 
 /// Shift of the surface [m] that gives the profile the volume `target`: Newton steps no longer than half a width.
-double volumeKeepingShift(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& volume,
-    const std::vector<ProfileSlab>& slabs, const std::vector<double>& width, double target)
+double volumeKeepingShift(const SimplexMesh& mesh, const Halo& halo, const StartSurface& surface, int part, double target)
 {
     double smallest = 1e300;
     for (int i = 0; i < mesh.nOwned; ++i)
-        smallest = std::min(smallest, width[i]);
+        smallest = std::min(smallest, surface.width[i]);
     const double longestStep = 0.5*halo.min(smallest);
 
     double shift = 0;
     for (int iteration = 0; iteration < 50; ++iteration)
     {
-        const auto [value, slope] = volumeOfProfile(mesh, halo, volume, slabs, width, shift);
+        const auto [value, slope] = volumeOfProfile(mesh, halo, surface, part, shift);
         if (slope <= 0 || std::abs(value - target) <= 1e-14*std::abs(target))
             break;
         const double step = std::clamp((target - value)/slope, -longestStep, longestStep);
@@ -143,7 +155,7 @@ std::vector<double> interfaceWidth(const SimplexMesh& mesh, const NodeGraph& gra
 }
 
 void makeStartProfile(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo,
-    const std::vector<double>& width, std::vector<double>& alpha, double liquid, const DualCells* cells)
+    const std::vector<double>& width, std::vector<double>& alpha, const StartLiquid& liquid, const DualCells* cells)
 {
     std::vector<double> level(alpha);
     for (double& l : level)
@@ -154,13 +166,11 @@ void makeStartProfile(const SimplexMesh& mesh, const NodeGraph& graph, const Hal
         return;
 
     const std::vector<double> volume = dualVolumes(mesh, nullptr);
-    if (liquid < 0)
-    {
-        liquid = 0;
-        for (int i = 0; i < mesh.nOwned; ++i)
-            liquid += volume[i]*alpha[i];
-        liquid = halo.sum(liquid);
-    }
+    const std::vector<char> part = liquid.isAtSide.empty() ? std::vector<char>(mesh.nNodes, Level) : liquid.isAtSide;
+    double target[nParts] = {};
+    for (int i = 0; i < mesh.nOwned; ++i)
+        target[int(part[i])] += liquid.volume.empty() ? volume[i]*alpha[i] : liquid.volume[i];
+    halo.sum(target, nParts);
 
     constexpr double far = 1e3;     // widths: 0 or 1 exactly
     const std::vector<double> interpolated = interpolatedDistance(mesh, level);
@@ -171,9 +181,10 @@ void makeStartProfile(const SimplexMesh& mesh, const NodeGraph& graph, const Hal
         if (planes.has(i)) slabs[i] = profileSlab(cells, i, planes.normal(i), profileDistance(mesh, planes, i, level[i], interpolated[i], least[i]), width[i]);
         else slabs[i] = {alpha[i] > 0.5 ? far : -far, 0};
     }
-    const double shift = volumeKeepingShift(mesh, halo, volume, slabs, width, liquid);
-    for (int i = 0; i < mesh.nOwned; ++i)
-        alpha[i] = ProfileSlab{slabs[i].middle + shift/width[i], slabs[i].thickness}.mean();
+    const StartSurface surface{volume, width, slabs, part};
+    double shift[nParts];
+    for (int p = 0; p < nParts; ++p) shift[p] = volumeKeepingShift(mesh, halo, surface, p, target[p]);
+    for (int i = 0; i < mesh.nOwned; ++i) alpha[i] = surface.shifted(i, shift[int(part[i])]).mean();
     halo.update(alpha, 1);
 }
 

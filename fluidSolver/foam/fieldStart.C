@@ -57,12 +57,18 @@ void readSurface(const MeshAdapter& adapter, const Halo& halo, const Foam::scala
 {
     std::vector<double> fraction(alpha.begin(), alpha.end());
     for (double& f : fraction) f = std::clamp(f, 0.0, 1.0);
-    state.startLiquid = 0;
+    const SimplexMesh& mesh = adapter.mesh;
+    const int n = mesh.dim + 1;
+    std::vector<double>& volume = state.startLiquid.volume;
+    volume.assign(mesh.nNodes, 0.0);
     for (std::size_t c = 0; c < fraction.size(); ++c)
         for (int k = adapter.cellStart[c]; k < adapter.cellStart[c + 1]; ++k)
-            state.startLiquid += fraction[c]*adapter.mesh.volume[adapter.cellElements[k]];
-    state.startLiquid = halo.sum(state.startLiquid);
-    reconstructSurface(adapter, halo, fraction, state.alpha);
+        {
+            const int e = adapter.cellElements[k];
+            for (int a = 0; a < n; ++a) volume[mesh.elements[std::size_t(e)*n + a]] += fraction[c]*mesh.volume[e]/n;
+        }
+    halo.sumToOwners(volume, 1);
+    state.startLiquid.isAtSide = reconstructSurface(adapter, halo, fraction, state.alpha);
 }
 
 } // namespace

@@ -32,17 +32,18 @@ public:
         findSides(adapter, fraction);
     }
 
-    void run(std::vector<double>& level)
+    std::vector<char> run(std::vector<double>& level)
     {
         carry();
         if (findTears()) carry();
+        std::vector<char> isOnSide(level.size());
         for (std::size_t i = 0; i < level.size(); ++i)
         {
-            if (!isKnown(i)) continue;
-            const bool isOnSide = isTorn_[i] || (touches_[SurfaceCells::nKinds*i + SurfaceCells::Empty] > 0 && mean(i, Carried) > 0)
-                || (touches_[SurfaceCells::nKinds*i + SurfaceCells::Full] > 0 && mean(i, Carried) < 0);
-            level[i] = isOnSide ? side_[i] : std::clamp(mean(i, Carried), -0.5, 0.5);
+            const bool touchesFull = touches_[SurfaceCells::nKinds*i + SurfaceCells::Full] > 0, touchesEmpty = touches_[SurfaceCells::nKinds*i + SurfaceCells::Empty] > 0;
+            isOnSide[i] = isTorn_[i] || (touchesFull && touchesEmpty) || (isKnown(i) && ((touchesEmpty && mean(i, Carried) > 0) || (touchesFull && mean(i, Carried) < 0)));
+            if (isKnown(i)) level[i] = isOnSide[i] ? side_[i] : std::clamp(mean(i, Carried), -0.5, 0.5);
         }
+        return withNeighbours(isOnSide);
     }
 
 private:
@@ -51,6 +52,27 @@ private:
     double mean(std::size_t i, int what) const { return means_[(nMeans + 1)*i + what]; }
     bool isKnown(std::size_t i) const { return mean(i, nMeans) > 0; }
     double variance(std::size_t i, int what) const { return mean(i, what + 1) - mean(i, what)*mean(i, what); }
+
+    /// And the nodes of the elements around; empty if there is none.
+    std::vector<char> withNeighbours(const std::vector<char>& isOnSide) const
+    {
+        const int n = mesh_.dim + 1;
+        std::vector<double> result(mesh_.nNodes, 0.0);
+        bool isAny = false;
+        for (int e = 0; e < mesh_.nElements; ++e)
+        {
+            const int* nodes = &mesh_.elements[std::size_t(e)*n];
+            if (!mesh_.isOwnedElement[e] || std::none_of(nodes, nodes + n, [&](int i) { return isOnSide[i] != 0; })) continue;
+            for (int a = 0; a < n; ++a) result[nodes[a]] = 1;
+            isAny = true;
+        }
+        if (!halo_.any(isAny)) return {};
+        halo_.sumToOwners(result, 1);
+        halo_.update(result, 1);
+        std::vector<char> isNear(mesh_.nNodes);
+        std::transform(result.begin(), result.end(), isNear.begin(), [](double count) { return char(count > 0); });
+        return isNear;
+    }
 
     /// Level of the nodes if every cell is full or empty, whichever it is more of.
     void findSides(const MeshAdapter& adapter, const std::vector<double>& fraction)
@@ -169,9 +191,10 @@ private:
 
 } // namespace
 
-void followProfiles(const MeshAdapter& adapter, const Halo& halo, const SurfaceCells& cells, const std::vector<double>& fraction, std::vector<double>& level)
+std::vector<char> followProfiles(const MeshAdapter& adapter, const Halo& halo, const SurfaceCells& cells, const std::vector<double>& fraction, std::vector<double>& level)
 {
-    if (halo.any(!cells.profile().empty())) ProfileLevel(adapter, halo, cells, fraction).run(level);
+    if (!halo.any(!cells.profile().empty())) return {};
+    return ProfileLevel(adapter, halo, cells, fraction).run(level);
 }
 
 } // namespace flotsam

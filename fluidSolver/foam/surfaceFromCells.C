@@ -17,6 +17,7 @@ namespace
 
 constexpr int maxSweeps = 200;          // a plane is found to round-off in 20 to 100
 constexpr double smallestChange = 1e-13;  // of the level, per sweep, over the common length
+constexpr double onSurface = 1e-11;     // level of nodes that the surface goes through: round-off must not say which elements it cuts
 constexpr int patience = 10;            // sweeps in which the change must halve: a surface that is no plane settles at a finite one
 
 class Reconstruction
@@ -26,13 +27,13 @@ public:
     :   adapter_(adapter), mesh_(adapter.mesh), halo_(halo), fraction_(fraction), cells_(adapter, halo, fraction)
     {}
 
-    void run(std::vector<double>& alpha)
+    std::vector<char> run(std::vector<double>& alpha)
     {
-        if (!cells_.areAny()) return;
+        if (!cells_.areAny()) return {};
         cells_.dropMixtures(alpha);
         std::vector<double> level(alpha.size());
         for (std::size_t i = 0; i < level.size(); ++i) level[i] = alpha[i] - 0.5;
-        followProfiles(adapter_, halo_, cells_, fraction_, level);
+        std::vector<char> isAtSide = followProfiles(adapter_, halo_, cells_, fraction_, level);
         double change = 1e300, before = 1e300;
         for (int sweep = 1; sweep <= maxSweeps && change > smallestChange; ++sweep)
         {
@@ -42,7 +43,8 @@ public:
             before = change;
         }
         extend(level);
-        for (std::size_t i = 0; i < level.size(); ++i) alpha[i] = 0.5 + level[i];
+        for (std::size_t i = 0; i < level.size(); ++i) alpha[i] = std::abs(level[i]) < onSurface ? 0.5 : 0.5 + level[i];
+        return isAtSide;
     }
 
 private:
@@ -165,10 +167,10 @@ private:
         }
         halo_.sumToOwners(sum, 2);
         halo_.update(sum, 2);
-        const std::vector<double> least = smallestHeights();
+        const std::vector<double> least = smallestHeights(), ofProfiles = cells_.toNodes(cells_.profile(), 0, [](std::size_t, int, double*) {});
         for (std::size_t i = 0; i < level.size(); ++i)
         {
-            if (isKnown(i) || sum[2*i + 1] <= 0 || level[i] == 0) continue;
+            if (isKnown(i) || sum[2*i + 1] <= 0 || level[i] == 0 || ofProfiles[i] > 0) continue;
             const double value = sum[2*i]/sum[2*i + 1];
             level[i] = std::copysign(std::max(std::copysign(1, level[i])*value, least[i]), level[i]); // the cells around it are full or empty: their side counts
         }
@@ -202,9 +204,9 @@ private:
 
 } // namespace
 
-void reconstructSurface(const MeshAdapter& adapter, const Halo& halo, const std::vector<double>& fraction, std::vector<double>& alpha)
+std::vector<char> reconstructSurface(const MeshAdapter& adapter, const Halo& halo, const std::vector<double>& fraction, std::vector<double>& alpha)
 {
-    Reconstruction(adapter, halo, fraction).run(alpha);
+    return Reconstruction(adapter, halo, fraction).run(alpha);
 }
 
 } // namespace flotsam

@@ -106,6 +106,37 @@ TEST_CASE("start profile: keeps the volume, is the same on any number of ranks")
     }
 }
 
+TEST_CASE("start profile: what is missing at a side of the liquid does not lower the level away from it, and the volume is kept")
+{
+    for (const int dim : {2, 3})
+    {
+        const Scene scene(MPI_COMM_WORLD, dim, 10, 0);
+        const SimplexMesh& mesh = scene.mesh;
+        const std::vector<double> volume = dualVolumes(mesh, nullptr);
+        std::vector<double> alpha(mesh.nNodes), given;
+        StartLiquid liquid;
+        for (int i = 0; i < mesh.nNodes; ++i)
+        {
+            alpha[i] = std::clamp(0.5 + 3*(0.55 - scene.height(i)), 0., 1.);
+            const bool isAtSide = mesh.x[std::size_t(i)*dim] < 0.25;
+            liquid.isAtSide.push_back(isAtSide);
+            liquid.volume.push_back((isAtSide ? 0.9 : 1)*volume[i]*alpha[i]);
+        }
+        given = alpha;
+        makeStartProfile(mesh, scene.graph, scene.halo, scene.width, given);
+        makeStartProfile(mesh, scene.graph, scene.halo, scene.width, alpha, liquid);
+        double worst = 0, total = 0, largest = 0;
+        for (int i = 0; i < mesh.nOwned; ++i)
+        {
+            total += liquid.volume[i];
+            (liquid.isAtSide[i] ? largest : worst) = std::max(liquid.isAtSide[i] ? largest : worst, std::abs(alpha[i] - given[i]));
+        }
+        CHECK(scene.halo.max(worst) < 1e-6);   // dual volumes of alternating diagonals differ from column to column
+        CHECK(scene.halo.max(largest) > 0.1);
+        CHECK(scene.volumeOf(alpha) == near(scene.halo.sum(total), 1e-13));
+    }
+}
+
 TEST_CASE("start profile: a plane stays one, in all directions and on moved nodes, and an edge of the liquid has none beyond")
 {
     for (const int dim : {2, 3})
@@ -117,7 +148,9 @@ TEST_CASE("start profile: a plane stays one, in all directions and on moved node
             {
                 std::vector<double> alpha(scene.mesh.nNodes);
                 for (int i = 0; i < scene.mesh.nNodes; ++i) alpha[i] = std::clamp(0.5 + distance(&scene.mesh.x[std::size_t(i)*dim])*n/6., 0., 1.);
-                makeStartProfile(scene.mesh, scene.graph, scene.halo, scene.width, alpha, liquid);
+                StartLiquid start;
+                if (liquid > 0) start.volume.assign(scene.mesh.nNodes, liquid/scene.halo.sum(double(scene.mesh.nOwned)));
+                makeStartProfile(scene.mesh, scene.graph, scene.halo, scene.width, alpha, start);
                 return alpha;
             };
             for (int k = 0; k < 20; ++k)
