@@ -21,12 +21,12 @@ double distanceOf(const BodyDefinition& body, const Pose& pose, const Vec3& x)
     return body.shape->distance(pose.orientation.conjugate()*(x - pose.position));
 }
 
-/// Of a's spheres.
-double gapOfSpheres(const BodyDefinition& a, const Pose& poseOfA, const BodyDefinition& b, const Pose& poseOfB)
+/// Of the spheres of `body` from what `distance` is the distance of.
+template<class Distance>
+double gapOfSpheres(const BodyDefinition& body, const Pose& pose, const Distance& distance)
 {
     double gap = 1e300;
-    for (const SurfaceSphere& s : a.spheres)
-        gap = std::min(gap, distanceOf(b, poseOfB, poseOfA.position + poseOfA.orientation*s.centre) - s.radius);
+    for (const SurfaceSphere& s : body.spheres) gap = std::min(gap, distance(pose.position + pose.orientation*s.centre) - s.radius);
     return gap;
 }
 
@@ -84,14 +84,15 @@ bool EntryCheck::touches(int body, int other, const Pose& pose) const
     const BodyDefinition &a = bodies_[body], &b = bodies_[other];
     const double gap = gapOfThickness*std::min(a.thinnest, b.thinnest);
     if ((a.pose.position - pose.position).norm() > extents_[body] + extents_[other] + gap) return false;
-    return std::min(gapOfSpheres(a, a.pose, b, pose), gapOfSpheres(b, pose, a, a.pose)) < gap;
+    return gapOfSpheres(a, a.pose, [&](const Vec3& x) { return distanceOf(b, pose, x); }) < gap
+        || gapOfSpheres(b, pose, [&](const Vec3& x) { return distanceOf(a, a.pose, x); }) < gap;
 }
 
 bool EntryCheck::touches(int body, const Solid& structure) const
 {
     const BodyDefinition& b = bodies_[body];
-    const auto isAt = [&](const SurfaceSphere& s) { return structure.distance(b.pose.position + b.pose.orientation*s.centre) < s.radius + gapOfThickness*b.thinnest; };
-    return (b.pose.position - structure.pose.position).norm() < extents_[body] + structure.radius() + b.thinnest && std::any_of(b.spheres.begin(), b.spheres.end(), isAt);
+    if ((b.pose.position - structure.pose.position).norm() > extents_[body] + structure.radius() + b.thinnest) return false;
+    return gapOfSpheres(b, b.pose, [&](const Vec3& x) { return structure.distance(x); }) < gapOfThickness*b.thinnest;
 }
 
 /// Nodes of the elements that the body reaches into, or that have a node within half an element from it.

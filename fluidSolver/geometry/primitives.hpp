@@ -4,6 +4,7 @@
 
 #include "geometry/shape.hpp"
 
+#include <functional>
 #include <mutex>
 
 namespace flotsam
@@ -125,5 +126,12 @@ private:
     mutable std::once_flag isIntegrated_;
     mutable VolumeMoments moments_;
 };
+
+constexpr double sameSphere = 1e-6;  ///< over a radius: spheres of that radius nearer to each other are one
+
+bool hasSphereAt(const std::vector<SurfaceSphere>& spheres, const Vec3& x, double radius);
+
+/// The parts' spheres, each once, without those that do not reach the common surface.
+std::vector<SurfaceSphere> unionSpheres(const UnionShape& shape, const std::function<std::vector<SurfaceSphere>(const Shape&)>& ofPart);
 
 } // namespace flotsam

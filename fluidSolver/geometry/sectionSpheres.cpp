@@ -12,8 +12,6 @@ namespace
 
 using Spheres = std::vector<SurfaceSphere>;
 
-constexpr double same = 1e-6;   // over a radius: places
-
 struct Plane
 {
     Vec3 point, normal;
@@ -24,11 +22,6 @@ struct Plane
 };
 
 struct Sizes { double radius, spacing, rowSpacing; };
-
-bool hasSphereAt(const Spheres& spheres, const Vec3& x, double radius)
-{
-    return std::any_of(spheres.begin(), spheres.end(), [&](const SurfaceSphere& s) { return s.radius == radius && (s.centre - x).norm() < same * radius; });
-}
 
 Spheres inPlane(const Shape& shape, const Plane& plane, const Sizes& sizes);
 
@@ -42,18 +35,8 @@ Spheres ofBox(const BoxShape& box, int across, const Plane& plane, const Sizes& 
     size[across] = 2 * (radius + sizes.spacing);
     Spheres rim;
     for (const SurfaceSphere& s : surfaceSpheres(*makeBox(plane.project(box.centre()), size), radius, sizes.spacing, sizes.rowSpacing))
-        if (std::abs(plane.height(s.centre)) < same * radius) rim.push_back(s);
+        if (std::abs(plane.height(s.centre)) < sameSphere * radius) rim.push_back(s);
     return rim;
-}
-
-/// The parts' spheres without those that do not reach the common surface.
-Spheres ofUnion(const UnionShape& shape, const Plane& plane, const Sizes& sizes)
-{
-    Spheres all;
-    for (const auto& part : shape.parts())
-        for (const SurfaceSphere& s : inPlane(*part, plane, sizes))
-            if (shape.distance(s.centre) > -s.radius * (1 + 1e-9) && !hasSphereAt(all, s.centre, s.radius)) all.push_back(s);
-    return all;
 }
 
 Spheres ofPlaced(const PlacedShape& placed, const Plane& plane, const Sizes& sizes)
@@ -74,7 +57,7 @@ Spheres middleLayer(const Spheres& all, const Shape& shape, const Plane& plane)
         if (std::abs(plane.height(s.centre)) < std::abs(nearest)) nearest = plane.height(s.centre);
     Spheres layer;
     for (const SurfaceSphere& s : all)
-        if (std::abs(plane.height(s.centre) - nearest) < same * s.radius) layer.push_back({plane.project(s.centre), s.radius});
+        if (std::abs(plane.height(s.centre) - nearest) < sameSphere * s.radius) layer.push_back({plane.project(s.centre), s.radius});
     const auto isNeedless = [&](const SurfaceSphere& s)
     {
         const Vec3 place = plane.project(s.centre);
@@ -86,7 +69,7 @@ Spheres middleLayer(const Spheres& all, const Shape& shape, const Plane& plane)
 Spheres inPlane(const Shape& shape, const Plane& plane, const Sizes& sizes)
 {
     if (const auto* placed = dynamic_cast<const PlacedShape*>(&shape)) return ofPlaced(*placed, plane, sizes);
-    if (const auto* joined = dynamic_cast<const UnionShape*>(&shape)) return ofUnion(*joined, plane, sizes);
+    if (const auto* joined = dynamic_cast<const UnionShape*>(&shape)) return unionSpheres(*joined, [&](const Shape& part) { return inPlane(part, plane, sizes); });
     if (const auto* cylinder = dynamic_cast<const CylinderShape*>(&shape); cylinder && plane.isAcross(cylinder->axis()))
         return {{plane.project(cylinder->centre()), cylinder->radius()}};
     if (const auto* box = dynamic_cast<const BoxShape*>(&shape))

@@ -178,22 +178,21 @@ Spheres sampledSpheres(const Shape& shape, double radius, double spacing)
     return spheres;
 }
 
-/// The parts' spheres without those that do not reach the common surface.
-Spheres unionSpheres(const UnionShape& shape, double radius, double spacing, double rowSpacing)
+} // namespace
+
+bool hasSphereAt(const std::vector<SurfaceSphere>& spheres, const Vec3& x, double radius)
+{
+    return std::any_of(spheres.begin(), spheres.end(), [&](const SurfaceSphere& s) { return s.radius == radius && (s.centre - x).norm() < sameSphere * radius; });
+}
+
+std::vector<SurfaceSphere> unionSpheres(const UnionShape& shape, const std::function<std::vector<SurfaceSphere>(const Shape&)>& ofPart)
 {
     Spheres all;
     for (const auto& part : shape.parts())
-        for (const SurfaceSphere& s : surfaceSpheres(*part, radius, spacing, rowSpacing))
-        {
-            const bool isAtSurface = shape.distance(s.centre) > -s.radius * (1 + 1e-9);
-            const bool isNew = std::none_of(all.begin(), all.end(),
-                [&](const SurfaceSphere& other) { return (other.centre - s.centre).norm() < 1e-6 * spacing; });
-            if (isAtSurface && isNew) all.push_back(s);
-        }
+        for (const SurfaceSphere& s : ofPart(*part))
+            if (shape.distance(s.centre) > -s.radius * (1 + 1e-9) && !hasSphereAt(all, s.centre, s.radius)) all.push_back(s);
     return all;
 }
-
-} // namespace
 
 std::vector<SurfaceSphere> surfaceSpheres(const Shape& shape, double radius, double spacing, double rowSpacing)
 {
@@ -204,7 +203,8 @@ std::vector<SurfaceSphere> surfaceSpheres(const Shape& shape, double radius, dou
     if (const auto* box = dynamic_cast<const BoxShape*>(&shape)) return boxSpheres(*box, radius, spacing);
     if (const auto* cylinder = dynamic_cast<const CylinderShape*>(&shape)) return cylinderSpheres(*cylinder, radius, spacing, rowSpacing);
     if (const auto* capsule = dynamic_cast<const CapsuleShape*>(&shape)) return capsuleSpheres(*capsule, rowSpacing);
-    if (const auto* joined = dynamic_cast<const UnionShape*>(&shape)) return unionSpheres(*joined, radius, spacing, rowSpacing);
+    if (const auto* joined = dynamic_cast<const UnionShape*>(&shape))
+        return unionSpheres(*joined, [&](const Shape& part) { return surfaceSpheres(part, radius, spacing, rowSpacing); });
     if (const auto* placed = dynamic_cast<const PlacedShape*>(&shape))
     {
         Spheres spheres = surfaceSpheres(placed->inner(), radius, spacing, rowSpacing);
