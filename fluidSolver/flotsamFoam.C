@@ -239,6 +239,9 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     {
         RunOutput(runTime, adapter.mesh, halo, bodies, timers).checkStart();
         checkThinStructures(adapter, halo, bodies);
+        FlowState state;
+        fields.readStart(state);
+        checkInflow(adapter, halo, boundary, state, nullptr, runTime.value());
         writeNumerics(Foam::Info, controls.numerics);
     }
     if (task == Task::WeighCells) weighCells(mesh, adapter, halo, bodies);
@@ -265,6 +268,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     {
         updateTimeControls(runTime, time);
         const CourantNumbers rates = courantRates(step);
+        checkInflow(adapter, halo, boundary, step.fluid().state(), step.cover(), runTime.value());
         auto [wanted, limit] = nextTimeStep(rates.largest, rates.bodies, time, dt);
         checkTimeStep(wanted, limit, time, step);
         double used = writeTimes.setStep(wanted);

@@ -52,6 +52,8 @@ flotsam_test(narrowGaps verification SOURCES verification/narrowGaps.cpp
 flotsam_test(allocations verification SOURCES verification/allocations.cpp
   LIBRARIES flotsam_coupling flotsam_test_support)
 target_link_options(test_allocations PRIVATE -Wl,--wrap=malloc)
+flotsam_test(stepLengths verification SOURCES verification/stepLengths.cpp
+  LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
 flotsam_test(enteringBodies verification SOURCES verification/enteringBodies.cpp
   LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
 flotsam_test(fastBodies verification SOURCES verification/fastBodies.cpp

@@ -5,6 +5,7 @@
 #include "geometry/solid.hpp"
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -51,6 +52,21 @@ inline double outerRadius(const BodyDefinition& body)
     double radius = 0;
     for (const SurfaceSphere& s : body.spheres) radius = std::max(radius, s.centre.norm() + s.radius);
     return radius;
+}
+
+/// Speed of the fastest corner of a box around a body, whose lower and upper corners are given in its own frame [m/s]: no point of the body is faster. A log that
+/// rolls about its length has slow ends, and in 2D its extent across does not count, which the distance of the farthest point times the angular velocity does not know.
+inline double fastestCorner(const std::array<Vec3, 2>& box, const Pose& pose, const Motion& motion)
+{
+    const Vec3 velocity = pose.orientation.conjugate()*motion.velocity, turning = pose.orientation.conjugate()*motion.angularVelocity;
+    double fastest = 0;
+    for (int corner = 0; corner < 8; ++corner)
+    {
+        const Vec3 x(box[corner & 1][0], box[corner >> 1 & 1][1], box[corner >> 2][2]);
+        const double speed = (velocity + turning.cross(x)).norm();
+        if (!(speed <= fastest)) fastest = speed;   // also one that is no number
+    }
+    return fastest;
 }
 
 /// A structure that moves as prescribed, which bodies can touch.

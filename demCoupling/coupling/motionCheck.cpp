@@ -67,7 +67,7 @@ double MotionCheck::largestWay(std::size_t body, const Pose& from, const Pose& t
 
 double MotionCheck::surfaceSpeed(std::size_t body, const BodyState& state) const
 {
-    return state.motion.velocity.norm() + state.motion.angularVelocity.norm()*extents_[body];
+    return fastestCorner({-halves_[body], halves_[body]}, state.pose, state.motion);
 }
 
 std::string MotionCheck::thrownBody(const std::vector<BodyState>& before, const std::vector<BodyState>& after, const std::vector<Load>& contact,

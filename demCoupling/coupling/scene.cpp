@@ -25,14 +25,7 @@ Scene::Scene(std::vector<SceneStructure> structures, const std::vector<BodyDefin
         solid.motion = body.motion;
         solids_.push_back(solid);
     }
-    for (const Solid& s : solids_)
-    {
-        double radius = 0;
-        const std::array<Vec3, 2> bounds = s.shape->bounds();
-        for (int corner = 0; corner < 8; ++corner)
-            radius = std::max(radius, Vec3(bounds[corner & 1][0], bounds[corner >> 1 & 1][1], bounds[corner >> 2][2]).norm());
-        radius_.push_back(radius);
-    }
+    for (const Solid& s : solids_) bounds_.push_back(s.shape->bounds());
 }
 
 namespace
@@ -87,7 +80,7 @@ std::pair<std::string, double> Scene::fastest() const
     for (std::size_t s = 0; s < solids_.size(); ++s)
     {
         if (solids_[s].kind == Solid::Kind::Fixed) continue;
-        const double speed = solids_[s].motion.velocity.norm() + radius_[s]*solids_[s].motion.angularVelocity.norm();
+        const double speed = fastestCorner(bounds_[s], solids_[s].pose, solids_[s].motion);
         if (speed > result.second) result = {solids_[s].name, speed};
     }
     return result;

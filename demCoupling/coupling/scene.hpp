@@ -66,7 +66,7 @@ public:
 private:
     std::vector<SceneStructure> structures_;
     std::vector<BodyDefinition> bodies_;
-    std::vector<double> radius_;    // per solid: of the sphere around its origin that holds it [m]
+    std::vector<std::array<Vec3, 2>> bounds_;   // per solid, in its own frame [m]
     std::vector<Solid> solids_;
     Vec3 gravity_;
     bool isMoving_ = false;

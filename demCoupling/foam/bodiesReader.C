@@ -12,6 +12,8 @@
 #include "OSspecific.H"
 #include "Time.H"
 #include "processorPolyPatch.H"
+#include "symmetryPlanePolyPatch.H"
+#include "symmetryPolyPatch.H"
 
 #include <algorithm>
 
@@ -80,7 +82,7 @@ std::vector<BodyGroup> readGroups(const Foam::dictionary& dict, const SceneFrame
     return groups;
 }
 
-/// Names of the mesh's patches that are DEM walls.
+/// Names of the mesh's patches that are DEM walls. A body that reaches a mirror plane meets its image there, in the middle between both.
 std::vector<std::string> wallPatches(const Foam::dictionary& dict, const Foam::polyMesh& mesh)
 {
     std::vector<std::string> walls, all;
@@ -88,7 +90,7 @@ std::vector<std::string> wallPatches(const Foam::dictionary& dict, const Foam::p
     {
         if (Foam::isA<Foam::processorPolyPatch>(patch)) continue;
         all.push_back(patch.name());
-        if (patch.type() == "wall") walls.push_back(patch.name());
+        if (patch.type() == "wall" || Foam::isA<Foam::symmetryPolyPatch>(patch) || Foam::isA<Foam::symmetryPlanePolyPatch>(patch)) walls.push_back(patch.name());
     }
     if (!dict.found("wallPatches")) return walls;
     if (dict.lookup("wallPatches")[0].isWord())
@@ -244,7 +246,7 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
         for (WallDefinition& wall : makeMeshWalls(mesh, mesh.boundaryMesh()[mesh.boundaryMesh().findPatchID(name)], halo, wallMaterial))
             input.walls.push_back(std::move(wall));
     if (patches.empty() && !dict.found("wallPatches"))
-        Foam::Info << "constant/bodies: the mesh has no patch of type wall, so bodies can leave it everywhere. If that is not meant: wallPatches (names);" << Foam::nl;
+        Foam::Info << "constant/bodies: the mesh has no patch of type wall and no mirror plane, so bodies can leave it everywhere. If that is not meant: wallPatches (names);" << Foam::nl;
     Obstacles obstacles = makeObstacles(input, frame); // the patches; structures by their shapes
     addStructureWalls(input);
     addMovers(dict, frame, groups, input);

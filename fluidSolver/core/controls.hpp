@@ -28,6 +28,7 @@ struct NumericsControls
     double tauFactor = 0.25;        ///< tau of SUPG and PSPG over Tezduyar's where inertia counts
     double tauContFactor = 1;       ///< multiplies tau_cont
     bool tauContWithTimeStep = true; ///< tau_cont = rho h^2/(12 T), T with the time step (docs/numerics.md), else rho (nu + |a| h/2)
+    double penaltyRate = 6;         ///< largest 1/dt in tau_cont and in the walls' normal penalty, over sqrt(g/element length)
     double tauContBulk = 0.1;       ///< share of the time step's rate 2/dt in that T in elements of one density, away from the liquid's surface
     bool viscousResidual = true;    ///< mu lap u in the residual of SUPG, PSPG and u'
     // embedded boundary

@@ -65,7 +65,7 @@ public:
         else loadTwoFluids();
         if (data.isVarying) loadConvection<D, Real>(pairFluxes(), lastFluxShare(step_), fluid_, controls_, data);
         const Real timeShare = gather<Real>([&](int l) { return gradDivTimeShare(nodes_[l], N, controls_, nodal_); });
-        loadTauContinuity<D, Real>(rates_, h_, timeShare, controls_, data);
+        loadTauContinuity<D, Real>(rates_, h_, timeShare, step_, controls_, data);
     }
 
     /// value(node) of corner a.

@@ -200,9 +200,11 @@ inline ElementRates<Real> addFineScale(const Real* fineScale, const Real& h, dou
 }
 
 template<int D, class Real>
-inline void loadTauContinuity(const ElementRates<Real>& rates, const Real& h, const Real& timeShare, const NumericsControls& controls, ElementData<D, Real>& data)
+inline void loadTauContinuity(const ElementRates<Real>& rates, const Real& h, const Real& timeShare, const FlowStepData& step, const NumericsControls& controls,
+    ElementData<D, Real>& data)
 {
-    data.tauCont = controls.tauContFactor*(controls.tauContWithTimeStep ? rates.tauContinuity(data.rho, h, timeShare)
+    const Real rate = timeShare*penaltyRate<Real>(step.time.dt, step.gravity, controls.penaltyRate, h);
+    data.tauCont = controls.tauContFactor*(controls.tauContWithTimeStep ? rates.tauContinuity(data.rho, h, rate)
         : steadyTauContinuity<Real>(data.rho, squared<D>(data.advection), h, data.mu/data.rho));
 }
 
@@ -356,7 +358,7 @@ inline bool loadElementData(int e, const SimplexMesh& mesh, const FlowStepData& 
         }
         loadConvection<D, double>(fluxes, lastFluxShare(step), fluid, controls, data);
     }
-    loadTauContinuity<D, double>(source.rates, mesh.h[e], gradDivTimeShare(&mesh.elements[std::size_t(e)*(D + 1)], D + 1, controls, nodal), controls, data);
+    loadTauContinuity<D, double>(source.rates, mesh.h[e], gradDivTimeShare(&mesh.elements[std::size_t(e)*(D + 1)], D + 1, controls, nodal), step, controls, data);
     if (!nodal.film.empty()) data.tauCont *= filmContinuity(&mesh.elements[std::size_t(e)*(D + 1)], D + 1, nodal.film);
     return true;
 }

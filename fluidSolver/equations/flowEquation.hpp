@@ -85,6 +85,7 @@ private:
     template<int D> void sumSwept();
     static constexpr double layerThickness = 0.25;  // of unresolved layers on walls and between solids, over the size of the elements there
     double layerTime(double height) const;
+    double penaltyRateOf(int e) const;
     void findLayers();
     std::vector<int> findLayerNodes() const;
     void findLayerShares();

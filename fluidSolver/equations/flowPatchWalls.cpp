@@ -103,7 +103,7 @@ void FlowEquation::addWallFace(const MeshPatch& faces, std::size_t f, bool isSli
     if (!loadElement<D>(e, data)) return;
     const int* nodes = &mesh_.elements[std::size_t(e)*N];
     const WallFace<D> face(mesh_, step_.cover, faces, f, nodal_.advection);
-    WallCoefficients c = nitscheCoefficients(data, isSlip, controls_.nitscheGamma, mesh_.h[e], step_.time.dt, 0);   // no volume passes: nothing flows in
+    WallCoefficients c = nitscheCoefficients(data, isSlip, controls_.nitscheGamma, mesh_.h[e], penaltyRateOf(e), 0);   // no volume passes: nothing flows in
     if (!hasEdge || face.outflow < 0) c.normal = 0;
     if (!isSlip) holdTangentially(data, controls_, face.speed, face.height, step_.cover && step_.cover->state[e] == ElementState::Cut, c);
     const WallTerms<D> terms(c, face.normal, data.gradN);

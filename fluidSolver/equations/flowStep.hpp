@@ -21,6 +21,7 @@ class ShutPockets;
 struct FlowStepData
 {
     TimeScheme time;
+    double gravity = 0;                         ///< its size [m/s^2]; bounds penaltyRate()
     const FlowState* state = nullptr;           ///< t^n, t^(n-1); alpha already at t^(n+1)
     const Cover* cover = nullptr;               ///< null: no solids
     const GasRegion* gas = nullptr;             ///< null: no gas is left out

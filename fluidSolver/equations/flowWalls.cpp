@@ -90,7 +90,7 @@ void FlowEquation::addFacetGroup(const FacetGroup<D>& group, const Solid& solid,
     }
     const FacetMotion motion(group, nodes, arm, q, nodal_);
     const bool isSlip = solid.wall == Solid::Wall::Slip;
-    WallCoefficients c = controls_.nitsche ? nitscheCoefficients(data, isSlip, controls_.nitscheGamma, mesh_.h[group.element], step_.time.dt, motion.slip)
+    WallCoefficients c = controls_.nitsche ? nitscheCoefficients(data, isSlip, controls_.nitscheGamma, mesh_.h[group.element], penaltyRateOf(group.element), motion.slip)
                                            : penaltyCoefficients(isSlip, controls_.penalty);
     if (controls_.nitsche && !isSlip && controls_.separation > 0)
         c.tangential = std::max(c.tangential, holdOfSolid(data, nodes, arm, q, nodal_, *step_.state, controls_.separation, mesh_.h[group.element]));
@@ -162,6 +162,8 @@ void FlowEquation::sumSwept()
             if (i < mesh_.nOwned) swept_[i] += std::max(0.0, sweptOfCut_[c*N + a]);
         }
 }
+
+double FlowEquation::penaltyRateOf(int e) const { return penaltyRate(step_.time.dt, step_.gravity, controls_.penaltyRate, mesh_.h[e]); }
 
 void FlowEquation::setFreeBodies(const std::vector<FreeBody>& bodies, double dt)
 {

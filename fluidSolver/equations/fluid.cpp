@@ -146,6 +146,7 @@ void Fluid::assemble()
     if (cover_) setPocketPressures();
     FlowStepData step;
     step.time = time_;
+    step.gravity = std::hypot(fluid_.gravity[0], fluid_.gravity[1], fluid_.gravity[2]);
     step.state = &state_;
     step.cover = cover;
     step.gas = gas_.get();

@@ -3,7 +3,7 @@
 ///
 /// n: out of the fluid. Jumps [u] = u - ubar, [w] = w - W with rigid ubar, W: P1 functions on the element. Nitsche:
 ///   - (sigma(u,p) n).[w] - q n.[u] + (2 mu eps(w) n).[u] + gamma mu/h [u].[w]
-///   + (c rho h/dt + 0.1 rho |a|) ([u].n)([w].n) + rho max(0, -(a - ubar).n) [u].[w]
+///   + (c rho h r + 0.1 rho |a|) ([u].n)([w].n) + rho max(0, -(a - ubar).n) [u].[w]
 /// (non-symmetric; Massing, Schott & Wall 2018, doi 10.1016/j.cma.2017.09.003, coefficients measured for this method). c = 0.1; slip walls: 0.01, and
 /// the products of jumps by their means over the facet, as P1 cannot follow every facet of a round wall that nothing else holds.
 /// Pure penalty (the paper's): pbar [u].[w] alone.
@@ -30,9 +30,9 @@ struct WallCoefficients
     double convection;      ///< 1/2 rho (ubar.n): boundary part of the skew-symmetric convection, on u.w
 };
 
-/// Of the Nitsche condition, without the surface's convection. dt [s]; outflow: (a - ubar).n, mean over the facet [m/s].
+/// Of the Nitsche condition, without the surface's convection. rate: penaltyRate() [1/s]; outflow: (a - ubar).n, mean over the facet [m/s].
 template<int D>
-inline WallCoefficients nitscheCoefficients(const ElementData<D>& e, bool isSlip, double gamma, double h, double dt, double outflow)
+inline WallCoefficients nitscheCoefficients(const ElementData<D>& e, bool isSlip, double gamma, double h, double rate, double outflow)
 {
     double speed = 0;
     for (int d = 0; d < D; ++d) speed += e.advection[d]*e.advection[d];
@@ -41,7 +41,7 @@ inline WallCoefficients nitscheCoefficients(const ElementData<D>& e, bool isSlip
     c.isSlip = isSlip;
     c.mu = e.mu;
     c.tangential = gamma*e.mu/h + e.rho*std::max(0.0, -outflow);
-    c.normal = e.rho*((isSlip ? 0.01 : 0.1)*h/dt + 0.1*std::sqrt(speed));
+    c.normal = e.rho*((isSlip ? 0.01 : 0.1)*h*rate + 0.1*std::sqrt(speed));
     return c;
 }
 

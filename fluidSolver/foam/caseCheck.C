@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam/caseCheck.H"
+
+#include "equations/inflowBalance.hpp"
 #include "foam/boundaryReader.H"
 #include "foam/dictionaryChecks.H"
 
@@ -116,6 +118,16 @@ void printCaseCheck(const CaseControls& controls, const MeshAdapter& adapter, co
         line("warning", text("the thinnest body (", scene.thinnestBody, " m) spans less than 3 of the smallest elements (", counts.hMin, " m): refine around the bodies"));
     printCost(counts, mesh, scene, cost, halo.size());
     Foam::Info << Foam::endl;
+}
+
+void checkInflow(const MeshAdapter& adapter, const Halo& halo, const std::vector<BoundaryPatch>& patches, const FlowState& state, const Cover* cover, double time)
+{
+    const auto isOpen = [](const BoundaryPatch& p) { return p.velocity == BoundaryPatch::Velocity::Open; };
+    if (std::any_of(patches.begin(), patches.end(), isOpen)) return;
+    std::vector<PatchValues> values(patches.size());
+    for (std::size_t p = 0; p < patches.size(); ++p)
+        if (patches[p].evaluate) patches[p].evaluate({time, state.u.data(), state.alpha.data(), cover}, values[p]);
+    checkInflowBalance(adapter.mesh, halo, patches, values, cover);
 }
 
 } // namespace flotsam

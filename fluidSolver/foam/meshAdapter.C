@@ -41,6 +41,29 @@ void checkPatches(const polyMesh& mesh)
     }
 }
 
+/// Baffles: two faces on the same points. The unknowns are those of points, so that both sides would have the same fluid.
+void checkBaffles(const polyMesh& mesh)
+{
+    struct Side { std::vector<label> points; label face; };
+    std::vector<Side> sides;
+    for (label f = mesh.nInternalFaces(); f < mesh.nFaces(); ++f)
+    {
+        sides.push_back({{mesh.faces()[f].begin(), mesh.faces()[f].end()}, f});
+        std::sort(sides.back().points.begin(), sides.back().points.end());
+    }
+    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.points < b.points; });
+    const auto pair = std::adjacent_find(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return a.points == b.points; });
+    const bool isAny = pair != sides.end();
+    if (!returnReduce(isAny, orOp<bool>())) return;
+    const polyBoundaryMesh& patches = mesh.boundaryMesh();
+    FatalErrorInFunction << "the mesh in " << mesh.meshDir() << " has baffles, pairs of faces on the same points";
+    if (isAny)
+        FatalError << ": patches " << patches[patches.whichPatch(pair->face)].name() << " and " << patches[patches.whichPatch((pair + 1)->face)].name() << " at "
+                   << mesh.faceCentres()[pair->face];
+    FatalError << "." << nl << "This solver's unknowns are those of points: the fluid would go through. Give each side points of its own: mergeOrSplitBaffles -split -overwrite"
+               << " (before decomposePar)." << exit(FatalError);
+}
+
 bool isPlanar(const polyMesh& mesh)
 {
     label nEmpty = 0;
@@ -179,6 +202,7 @@ void fillNodes(const polyMesh& mesh, const SimplexSplit& split, const labelList&
 MeshAdapter makeSimplexMesh(const polyMesh& mesh, MPI_Comm comm, int vertical)
 {
     checkPatches(mesh);
+    checkBaffles(mesh);
     const bool planar = isPlanar(mesh);
     const labelList keys = pointKeys(mesh);
     const MeshPlane plane = planar ? findPlane(mesh) : MeshPlane{{0, 1, 2}, -0.5, 0.5};

@@ -44,7 +44,7 @@ std::vector<double> nodeSnap(const SimplexMesh& mesh, const Halo& halo)
         for (int a = 0; a <= mesh.dim; ++a)
         {
             double& s = snap[mesh.elements[std::size_t(e) * (mesh.dim + 1) + a]];
-            s = std::min(s, 1e-12 * mesh.h[e]);
+            s = std::min(s, 1e-10 * mesh.h[e]);
         }
     halo.update(snap, 1);
     return snap;

@@ -26,7 +26,7 @@ public:
     CoverBuilder(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo);
 
     /// Cuts the mesh with the solids at their poses. Distances are known only within two element lengths (or the
-    /// longest edge) of a solid; farDistance beyond. Nodes closer to a surface than 1e-12 of an element length count as solid; parts below
+    /// longest edge) of a solid; farDistance beyond. Nodes closer to a surface than 1e-10 of an element length count as solid; parts below
     /// `negligiblePart` are dropped. The result is valid until the next call; copy it to keep it. Collective.
     const Cover& build(const std::vector<Solid>& solids);
 

@@ -12,7 +12,10 @@ namespace
 {
 
 // a facet below this, beside a solid part below negligiblePart, comes from nodes that were set just inside a surface: ten times what their depth (nodeSnap) times an edge makes
-constexpr double negligibleFacet = 1e-10;
+constexpr double negligibleFacet = 1e-9;
+
+// times nodeSnap: what is that far outside; a hole that is left is that much smaller than a face
+constexpr double clearance = 1e7;
 
 template <int dim>
 SimplexCut<dim> wholeSimplex(double volume)
@@ -44,13 +47,14 @@ void CoverBuilder::cutElement(Cover& cover, const std::vector<Solid>& solids, in
     else cutElementOf<3>(cover, solids, element, distance);
 }
 
-/// A corner or an edge of the element lies on a surface to round-off, the rest outside: a matter of which nodes, not of how small a part their snapped distances cut off.
-/// nInside: nodes inside of the distance.
+/// A corner or an edge of the element lies on a surface to round-off, the rest clearly outside: a matter of which nodes, not of how small a part their snapped distances cut
+/// off. With a node of the rest as near as that to the surface a face of the element lies on it in part, which the element beyond the face has cut off, too: without this
+/// element's part the surface had a hole as large as the face. nInside: nodes inside of the distance.
 bool CoverBuilder::onlyTouches(int element, const double* distance, int nInside) const
 {
-    if (nInside >= mesh_.dim) return false;
+    if (nInside == 0 || nInside >= mesh_.dim) return nInside == 0;
     for (int a = 0; a <= mesh_.dim; ++a)
-        if (distance[a] < -snap_[nodesOf(element)[a]]) return false;
+        if (distance[a] < (distance[a] < 0 ? -1 : clearance) * snap_[nodesOf(element)[a]]) return false;
     return true;
 }
 

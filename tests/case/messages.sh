@@ -45,6 +45,11 @@ refused missingTime 'setEntry system/controlDict startFrom startTime; setEntry s
     'Time folder' 0.7 'there are: 0$' startTime
 refused unknownCondition 'sed -i "s/pressureInletOutletVelocity/waveVelocity/" 0/U' \
     waveVelocity atmosphere 'not available' pressureInletOutletVelocity
+refused shutInflow 'sed -i "/atmosphere/,/}/ { s/pressureInletOutletVelocity/fixedValue/; s/(0 0 0)/(0 -0.1 0)/ }" 0/U; sed -i "s/totalPressure/fixedFluxPressure/" 0/p_rgh' \
+    'given velocity (walls, atmosphere)\|given velocity (atmosphere)' 'bring in 0.002 m^3/s and take out 0' 'incompressible' 'totalPressure'
+refused baffles 'printf "FoamFile { version 2.0; format ascii; class dictionary; object topoSetDict; }\nactions ( { name b; type faceZoneSet; action new; source searchableSurfaceToFaceZone; sourceInfo { surface searchablePlane; planeType pointAndNormal; pointAndNormalDict { point (0.1 0 0); normal (1 0 0); } } } );\n" > system/topoSetDict
+    printf "FoamFile { version 2.0; format ascii; class dictionary; object createBafflesDict; }\ninternalFacesOnly true;\nbaffles { b { type faceZone; zoneName b; patches { master { name sheet; type wall; } slave { name sheetOther; type wall; } } } }\n" > system/createBafflesDict
+    quietly topoSet && quietly createBaffles -overwrite' baffles 'patches sheet and sheetOther' 'mergeOrSplitBaffles -split'
 refused turbulence 'sed -i "s/laminar;/RAS;/" constant/turbulenceProperties' RAS turbulenceProperties 'allowed: laminar'
 refused bodyOutside 'sed -i "s/(0 0.001 0.025)/(0.5 0.001 0.025)/" constant/bodies' bar 'outside of the mesh'
 refused overlap 'sed -i "s/    bar$/    copy { shape { type box; size (0.02 0.02 0.05); } density 590; position (0.01 0 0.025); }\n    bar/" constant/bodies' \

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// A box of moved nodes, and solids for tests of covers.
+/// A box of moved (or even) nodes, and solids for tests of covers.
 #pragma once
 
 #include "geometry/coverBuilder.hpp"
@@ -19,8 +19,8 @@ struct CoverScene
 
     CoverScene(int dim, int n, MPI_Comm comm = MPI_COMM_WORLD) : CoverScene(dim, std::array{n, n, n}, comm) {}
 
-    CoverScene(int dim, std::array<int, 3> n, MPI_Comm comm = MPI_COMM_WORLD)
-        : mesh(makeBoxMesh(comm, dim, n, {-1, -1, -1}, {1, 1, 1}, 0.15, true)), graph(mesh), halo(mesh, comm)
+    CoverScene(int dim, std::array<int, 3> n, MPI_Comm comm = MPI_COMM_WORLD, double moved = 0.15)
+        : mesh(makeBoxMesh(comm, dim, n, {-1, -1, -1}, {1, 1, 1}, moved, true)), graph(mesh), halo(mesh, comm)
     {
     }
 };

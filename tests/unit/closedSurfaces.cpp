@@ -92,6 +92,23 @@ TEST_CASE("the fluid's surface is closed around solids that touch, in every node
     }
 }
 
+TEST_CASE("the fluid's surface is closed around a box with nodes in its faces, however little it is turned or round-off moves the nodes")
+{
+    for (const int dim : {2, 3})
+    {
+        CoverScene scene(dim, {10, 10, 10}, MPI_COMM_WORLD, 0);
+        CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+        for (const Solid::Kind kind : {Solid::Kind::Fixed, Solid::Kind::Free})
+            for (double turned = 1e-15; turned < 1e-3; turned *= 1.5)
+            {
+                std::vector<Solid> solids = {makeSolid(makeBox(Vec3::Zero(), {1.2, 0.8, 0.8}), Vec3::Zero(), kind)};
+                solids[0].pose.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(turned, dim == 2 ? Vec3::UnitZ() : Vec3(0.36, 0.48, 0.8)));
+                CAPTURE(turned);
+                CHECK(largestHole(scene, builder.build(solids), 0.2) < 1e-6);
+            }
+    }
+}
+
 // Of long elements, whose next ones are beyond reach of the body.
 TEST_CASE("the fluid's surface is closed around structures that touch while a body passes by")
 {

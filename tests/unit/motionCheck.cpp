@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/coupling/motionCheck.hpp"
 
+#include "support/near.hpp"
+
 #include <doctest/doctest.h>
 
 using namespace flotsam;
@@ -126,6 +128,18 @@ TEST_CASE("a body far from its prediction")
     CHECK(check.strayBody({at(0, 0, 0)}, {at(0.1, 0, 0)}, 0.09) == "first");
     CHECK(check.strayBody({at(0, 0, 0)}, {turned}, 0.02) == "");
     CHECK(check.strayBody({at(0, 0, 0)}, {turned}, 0.01) == "first");
+}
+
+TEST_CASE("speed of a body's surface: what it rolls about does not count, in 2D its extent across neither")
+{
+    Pose pose;
+    pose.orientation = Eigen::AngleAxisd(0.7, Vec3::UnitZ());
+    const Vec3 along = pose.orientation*Vec3::UnitX();
+    const std::array<Vec3, 2> bar{Vec3(-0.5, -0.05, -0.05), Vec3(0.5, 0.05, 0.05)}, sheet{Vec3(-0.1, -0.05, -5), Vec3(0.1, 0.05, 5)};
+    CHECK(fastestCorner(bar, pose, {Vec3::Zero(), 20*along}) == near(20*0.05*std::sqrt(2.), 1e-13));
+    CHECK(fastestCorner(bar, pose, {along, Vec3::Zero()}) == near(1, 1e-13));
+    CHECK(fastestCorner(bar, pose, {Vec3::Zero(), 2*Vec3::UnitZ()}) == near(2*std::hypot(0.5, 0.05), 1e-13));
+    CHECK(fastestCorner(sheet, pose, {0.3*along, 2*Vec3::UnitZ()}) == near(std::hypot(0.3 + 2*0.05, 2*0.1), 1e-13));
 }
 
 TEST_CASE("a bar that rolls about its length goes less far than one that turns across it")
