@@ -12,7 +12,7 @@ namespace
 {
 
 // a facet below this, beside a solid part below negligiblePart, comes from nodes that were set just inside a surface: ten times what their depth (nodeSnap) times an edge makes
-constexpr double negligibleFacet = 1e-9;
+constexpr double negligibleFacet = 1e-8;
 
 // times nodeSnap: what is that far outside; a hole that is left is that much smaller than a face
 constexpr double clearance = 1e7;

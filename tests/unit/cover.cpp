@@ -205,7 +205,7 @@ TEST_CASE("the cover does not depend on the number of ranks")
 
 TEST_CASE("surfaces that lie in the mesh's nodes and faces")
 {
-    // a box whose faces are mesh planes: its volume and area are exact, nodes on it count as solid
+    // a box whose faces are mesh planes: its volume and area are exact, but for nodes on it, which count as solid by 1e-10 of an element
     for (const int dim : {2, 3})
     {
         SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, dim, {8, 8, 8}, {-1, -1, -1}, {1, 1, 1});
@@ -214,8 +214,8 @@ TEST_CASE("surfaces that lie in the mesh's nodes and faces")
         std::vector<Solid> solids(1);
         solids[0].shape = makeBox(Vec3::Zero(), Vec3::Constant(1));
         const Cover cover = cutMesh(mesh, graph, halo, solids);
-        CHECK(cover.solidVolume[0] == near(1, 5e-12));
-        CHECK(cover.solidArea[0] == near(2 * dim, 5e-12));
+        CHECK(cover.solidVolume[0] == near(1, 5e-10));
+        CHECK(cover.solidArea[0] == near(2 * dim, 5e-10));
         for (int i = 0; i < mesh.nNodes; ++i) CHECK(cover.distance[i] != 0);
         for (const CutElement& cut : cover.cuts) CHECK(cut.facetEnd > cut.facetStart);
     }
