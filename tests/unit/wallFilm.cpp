@@ -60,6 +60,7 @@ Vec3 closure(const Room& room, const Cover& cover)
 
 } // namespace
 
+// Volumes of boxes with faces on nodes are exact but for these, which count as inside by 1e-10 of an element.
 TEST_CASE("a box on the floor, flush with the mesh or not, loses the film and keeps a closed surface")
 {
     for (const int dim : {2, 3})
@@ -127,12 +128,12 @@ TEST_CASE("round bodies keep their volume, structures and bodies away from walls
         for (MeshPatch& patch : room.mesh.patches) patch.type = "wall";
     }
     const Cover away = room.cut(looseBox(Vec3(0.3, 0.13, 0), Vec3(0.7, 0.5, 1)));
-    CHECK(away.solidVolume[0] == near(0.4*0.37, 3e-12));
+    CHECK(away.solidVolume[0] == near(0.4*0.37, 3e-10));
     CHECK(away.filmNodes.empty());
 
     for (MeshPatch& patch : room.mesh.patches) patch.type = "patch"; // open: a body on its way out
     const Cover leaving = room.cut(looseBox(Vec3(0.8, 0, 0), Vec3(1.2, 0.35, 1)));
-    CHECK(leaving.solidVolume[0] == near(0.2*0.35, 2e-12));
+    CHECK(leaving.solidVolume[0] == near(0.2*0.35, 2e-10));
 }
 
 TEST_CASE("tilted boxes over the floor are cut as they are until they touch it")
@@ -157,7 +158,7 @@ TEST_CASE("between walls one element apart there is no room for films")
     const NodeGraph graph(room.mesh);
     const Halo halo(room.mesh, MPI_COMM_WORLD);
     Solid solid = looseBox(Vec3(0.3, 0.3, 0), Vec3(0.7, 0.65, 0.1));
-    CHECK(cutMesh(room.mesh, graph, halo, {solid}).solidVolume[0] == near(0.4*0.35*0.1, 3e-12));
+    CHECK(cutMesh(room.mesh, graph, halo, {solid}).solidVolume[0] == near(0.4*0.35*0.1, 3e-10));
     solid.shape = makeSphere(Vec3::Zero(), 0.2);
     const double volume = cutMesh(room.mesh, graph, halo, {solid}).solidVolume[0];
     solid.isLoose = false;
