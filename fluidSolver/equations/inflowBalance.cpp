@@ -49,10 +49,14 @@ void addFlow(const SimplexMesh& mesh, const MeshPatch& patch, const std::vector<
 
 } // namespace
 
+bool needsInflowBalance(const std::vector<BoundaryPatch>& patches)
+{
+    const auto isOne = [&](BoundaryPatch::Velocity kind) { return std::any_of(patches.begin(), patches.end(), [&](const BoundaryPatch& p) { return p.velocity == kind; }); };
+    return isOne(BoundaryPatch::Velocity::Fixed) && !isOne(BoundaryPatch::Velocity::Open);
+}
+
 void checkInflowBalance(const SimplexMesh& mesh, const Halo& halo, const std::vector<BoundaryPatch>& patches, const std::vector<PatchValues>& values, const Cover* cover)
 {
-    const auto isOpen = [](const BoundaryPatch& p) { return p.velocity == BoundaryPatch::Velocity::Open; };
-    if (std::any_of(patches.begin(), patches.end(), isOpen)) return;
     double flow[nFlows] = {};
     std::string names;
     std::vector<double> velocity(std::size_t(mesh.nNodes)*mesh.dim, 0.0);

@@ -9,8 +9,10 @@
 namespace flotsam
 {
 
-/// Throws std::invalid_argument, on every rank, where no patch leaves its velocity open and what the prescribed ones bring in differs from what they take out by more than 1 %
-/// of both: the fluids are incompressible, so the difference would have to appear or vanish within the mesh. values: of the patches; cover: null without solids. Collective.
+/// Whether velocities are prescribed and no patch leaves its own open.
+bool needsInflowBalance(const std::vector<BoundaryPatch>& patches);
+
+/// Of patches that need it: throws std::invalid_argument, on every rank, where what the prescribed velocities bring in differs from what they take out by more than 1 % of both: the fluids are incompressible, so the difference would have to appear or vanish within the mesh. values: of the patches; cover: null without solids. Collective.
 void checkInflowBalance(const SimplexMesh& mesh, const Halo& halo, const std::vector<BoundaryPatch>& patches, const std::vector<PatchValues>& values, const Cover* cover);
 
 } // namespace flotsam

@@ -122,8 +122,7 @@ void printCaseCheck(const CaseControls& controls, const MeshAdapter& adapter, co
 
 void checkInflow(const MeshAdapter& adapter, const Halo& halo, const std::vector<BoundaryPatch>& patches, const FlowState& state, const Cover* cover, double time)
 {
-    const auto isOpen = [](const BoundaryPatch& p) { return p.velocity == BoundaryPatch::Velocity::Open; };
-    if (std::any_of(patches.begin(), patches.end(), isOpen)) return;
+    if (!needsInflowBalance(patches)) return;
     std::vector<PatchValues> values(patches.size());
     for (std::size_t p = 0; p < patches.size(); ++p)
         if (patches[p].evaluate) patches[p].evaluate({time, state.u.data(), state.alpha.data(), cover}, values[p]);

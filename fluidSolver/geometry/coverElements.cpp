@@ -52,7 +52,8 @@ void CoverBuilder::cutElement(Cover& cover, const std::vector<Solid>& solids, in
 /// element's part the surface had a hole as large as the face. nInside: nodes inside of the distance.
 bool CoverBuilder::onlyTouches(int element, const double* distance, int nInside) const
 {
-    if (nInside == 0 || nInside >= mesh_.dim) return nInside == 0;
+    if (nInside == 0) return true;
+    if (nInside >= mesh_.dim) return false;
     for (int a = 0; a <= mesh_.dim; ++a)
         if (distance[a] < (distance[a] < 0 ? -1 : clearance) * snap_[nodesOf(element)[a]]) return false;
     return true;

@@ -104,7 +104,7 @@ TEST_CASE("the fluid's surface is closed around a box with nodes in its faces, h
                 std::vector<Solid> solids = {makeSolid(makeBox(Vec3::Zero(), {1.2, 0.8, 0.8}), Vec3::Zero(), kind)};
                 solids[0].pose.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(turned, dim == 2 ? Vec3::UnitZ() : Vec3(0.36, 0.48, 0.8)));
                 CAPTURE(turned);
-                CHECK(largestHole(scene, builder.build(solids), 0.2) < 1e-6);
+                CHECK(largestHole(scene, builder.build(solids), 0.2) < 1e-6);  // measured 5.6e-7: round-off of slivers; 0.34 where face parts of outer elements were left out
             }
     }
 }
