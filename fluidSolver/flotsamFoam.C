@@ -214,7 +214,7 @@ bool write(Foam::Time& runTime, const Halo& halo, CoupledStep& step, FoamFields&
     if (fields.isNeeded() || isStopping || writeNow)
     {
         PhaseTimer t(timers, Phase::Output);
-        fields.update(step.fluid().state(), step.cover(), step.scene().solids());
+        fields.update(step.fluid().state(), step.fluid().profileWidth(), step.cover(), step.scene().solids());
     }
     if (isStopping) runTime.writeAndEnd();
     else if (writeNow) runTime.writeNow();

@@ -3,6 +3,7 @@ flotsam_test(flowAtRest verification SOURCES verification/flowAtRest.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(openTop verification SOURCES verification/openTop.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(inlets verification SOURCES verification/inlets.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
+flotsam_test(tallCells verification SOURCES verification/tallCells.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(tankAtRest verification SOURCES verification/tankAtRest.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(patchWalls verification SOURCES verification/patchWalls.cpp
@@ -11,7 +12,7 @@ flotsam_test(slipEdge verification SOURCES verification/slipEdge.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(slipBend verification SOURCES verification/slipBend.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
-flotsam_test(liquidShares unit SOURCES unit/liquidShares.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
+flotsam_test(liquidShares unit SOURCES unit/liquidShares.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2 3)
 flotsam_test(viscousForce unit SOURCES unit/viscousForce.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(openBoundary unit SOURCES unit/openBoundary.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(shutPockets unit SOURCES unit/shutPockets.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)

@@ -2,7 +2,7 @@
 #include "equations/dualCellTransport.hpp"
 
 #include "algebra/needlessWork.hpp"
-#include "equations/initialProfile.hpp"
+#include "equations/interfaceWidth.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,9 +20,10 @@ constexpr double smallestCell = 0.3;
 } // namespace
 
 DualCellTransport::DualCellTransport(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo,
-    const NumericsControls& controls)
+    const NumericsControls& controls,
+    const std::array<double, 3>& gravity)
     : mesh_(mesh), graph_(graph), halo_(halo), controls_(controls),
-      width_(interfaceWidth(mesh, graph, halo, controls.interfaceWidth)), dualVolume_(dualVolumes(mesh, nullptr)),
+      width_(interfaceWidth(mesh, graph, halo, controls.interfaceWidth, gravity)), dualVolume_(dualVolumes(mesh, nullptr)),
       wholeVolume_(dualVolume_), cells_(mesh), reconstruction_(mesh, graph, cells_, width_), volumeFlux_(mesh, graph),
       boundary_(mesh, graph, volumeFlux_), liquidVolume_(std::numeric_limits<double>::quiet_NaN()), phase_(mesh.nNodes),
       inflow_(mesh.nNodes), outflow_(mesh.nNodes), rest_(mesh.nNodes), level_(mesh.nNodes), storedAt_(mesh.nElements, -1), liquid_(mesh.nNodes),

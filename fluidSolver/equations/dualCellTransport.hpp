@@ -33,7 +33,8 @@ struct SurfaceReading
 class DualCellTransport
 {
 public:
-    DualCellTransport(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const NumericsControls& controls);
+    DualCellTransport(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const NumericsControls& controls,
+        const std::array<double, 3>& gravity = {});
 
     /// Advances alpha (nNodes, halo up to date before and after) by dt.
     /// u: nNodes*dim velocity at t+dt/2; fineScale: nElements*dim u' at t+dt/2 (may be empty: zero).
@@ -59,7 +60,7 @@ public:
     /// No cover will ever be given.
     void forgetFaces() { volumeFlux_.forgetNeighbours(); }
 
-    /// Interface width delta of a node [m]: controls.interfaceWidth times the mean element length around it.
+    /// Interface width delta of a node [m]: interfaceWidth().
     const std::vector<double>& width() const { return width_; }
     const DualCells& cells() const { return cells_; }
 

@@ -15,10 +15,10 @@ Fluid::Fluid(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& f
     const std::vector<BoundaryPatch>& patches)
 :   mesh_(mesh), halo_(halo), graph_(mesh), fluid_(fluid), controls_(controls), patches_(patches), values_(patches.size()),
     equation_(mesh, graph_, halo, fluid_, controls_, patches_), solver_(mesh, graph_, halo, controls_),
-    transport_(mesh, graph_, halo, controls_), massFluxes_(mesh, fluid_, controls_), surfaceLevel_(mesh, halo), basins_(mesh, halo), pockets_(mesh, graph_, halo)
+    transport_(mesh, graph_, halo, controls_, fluid_.gravity), massFluxes_(mesh, fluid_, controls_), surfaceLevel_(mesh, halo, fluid_.gravity), basins_(mesh, halo), pockets_(mesh, graph_, halo)
 {
     if (controls_.gasDepth > 0 && fluid_.isTwoPhase) gas_ = std::make_unique<GasRegion>(mesh, halo, controls_.gasDepth);
-    if (!controls_.dualCellTransport) supg_ = std::make_unique<PhaseFieldSupg>(mesh, graph_, halo, controls_);
+    if (!controls_.dualCellTransport) supg_ = std::make_unique<PhaseFieldSupg>(mesh, graph_, halo, controls_, fluid_.gravity);
 }
 
 void Fluid::forgetFaces()

@@ -75,6 +75,7 @@ public:
     double timeStep() const { return time_.dt; }    ///< of the step that beginStep() began [s]
 
     const FlowState& state() const { return state_; }
+    const std::vector<double>& profileWidth() const { return transport_.width(); }  ///< of the phase field, nNodes [m]
     FlowState& state() { return state_; }
     const SimplexMesh& mesh() const { return mesh_; }
     const NodeGraph& graph() const { return graph_; }

@@ -140,20 +140,6 @@ double volumeKeepingShift(const SimplexMesh& mesh, const Halo& halo, const Start
 
 } // namespace
 
-std::vector<double> interfaceWidth(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, double factor)
-{
-    std::vector<double> width(mesh.nNodes, 0);
-    for (int i = 0; i < mesh.nOwned; ++i)
-    {
-        const int begin = graph.nodeElementStart[i], end = graph.nodeElementStart[i + 1];
-        for (int k = begin; k < end; ++k)
-            width[i] += mesh.h[graph.nodeElement[k]];
-        width[i] *= factor/(end - begin);
-    }
-    halo.update(width, 1);
-    return width;
-}
-
 void makeStartProfile(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo,
     const std::vector<double>& width, std::vector<double>& alpha, const StartLiquid& liquid, const DualCells* cells)
 {

@@ -19,7 +19,4 @@ class DualCells;
 void makeStartProfile(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo,
     const std::vector<double>& width, std::vector<double>& alpha, const StartLiquid& liquid = {}, const DualCells* cells = nullptr);
 
-/// Interface width [m] per local node: `factor` times the mean length of the elements around it. Collective.
-std::vector<double> interfaceWidth(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, double factor);
-
 } // namespace flotsam

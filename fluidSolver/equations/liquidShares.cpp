@@ -30,8 +30,8 @@ template<int dim>
 class Spreading
 {
 public:
-    Spreading(const SimplexMesh& mesh, const Cover* cover, const std::vector<double>& alpha, double width)
-    :   mesh_(mesh), cover_(cover), alpha_(alpha), width_(width), moments_(ShareMoments::of(dim)),
+    Spreading(const SimplexMesh& mesh, const Halo& halo, const Cover* cover, const std::vector<double>& alpha, const std::vector<double>& width)
+    :   mesh_(mesh), halo_(halo), cover_(cover), alpha_(alpha), width_(width), moments_(ShareMoments::of(dim)),
         result_(mesh.elements.size(), 0.0)
     {
         spreadEvenly();
@@ -41,19 +41,28 @@ public:
 
     std::vector<double> run()
     {
+        placePlanes();
         for (int i = 0; i < mesh_.nNodes; ++i)
         {
-            if (band_[i] < 0) continue;
-            collectShares(i);
-            if (!hasNormal() || !placeSurface(alpha_[i])) continue;
+            const double* plane = &planes_[std::size_t(i)*nPlane];
+            if (band_[i] < 0 || plane[Planarity] <= 0) continue;
+            collectShares(i, plane);
+            setEnds();
+            evaluateShares(plane[Place]);
             for (std::size_t k = 0; k < shares_.size(); ++k)
-                result_[shares_[k].slot] = shares_[k].volume*((1 - planarity_)*alpha_[i] + planarity_*mean_[k]);
+            {
+                const double mean = mean_[k] + plane[Step]*slope_[k];
+                result_[shares_[k].slot] = shares_[k].volume*((1 - plane[Planarity])*alpha_[i] + plane[Planarity]*mean);
+            }
         }
         return std::move(result_);
     }
 
 private:
     static constexpr int n = dim + 1;
+    /// Of a node's plane, after its normal. Planarity: 1: all gradients around point the same way; in the middle of a sheet they cancel; 0: none. Place: of the node from
+    /// the plane, in widths. Step: what is linear of it.
+    enum { Planarity = dim, Place, Step, nPlane };
 
     bool isInBand(int i) const { return alpha_[i] > pure && alpha_[i] < 1 - pure; }
 
@@ -112,40 +121,58 @@ private:
         }
     }
 
-    bool hasNormal() const { return planarity_ > 0; }
+    /// Planes of all nodes: copies of nodes do not have all elements around them, but their owners have.
+    void placePlanes()
+    {
+        planes_.assign(std::size_t(mesh_.nNodes)*nPlane, 0.0);
+        for (int i = 0; i < mesh_.nOwned; ++i)
+        {
+            if (band_[i] < 0) continue;
+            double* plane = &planes_[std::size_t(i)*nPlane];
+            findDirection(i, plane);
+            if (plane[Planarity] <= 0) continue;
+            collectShares(i, plane);
+            if (!placeSurface(alpha_[i], plane)) plane[Planarity] = 0;
+        }
+        halo_.update(planes_, nPlane);
+    }
 
-    /// The normal of node i, its shares, and these as slabs along the normal with middles relative to the node.
-    void collectShares(int i)
+    void findDirection(int i, double* plane) const
     {
         const double* g = &gradient_[std::size_t(band_[i])*n];
         double size = 0;
         for (int d = 0; d < dim; ++d) size += g[d]*g[d];
         size = std::sqrt(size);
-        planarity_ = g[dim] > 0 ? size/g[dim] : 0;
-        for (int d = 0; d < dim && size > 0; ++d) normal_[d] = g[d]/size;
+        plane[Planarity] = g[dim] > 0 ? size/g[dim] : 0;
+        for (int d = 0; d < dim && size > 0; ++d) plane[d] = g[d]/size;
+    }
+
+    /// The local shares of node i, and these as slabs along the plane's normal with middles relative to the node.
+    void collectShares(int i, const double* plane)
+    {
         shares_.clear();
         for (int k = start_[band_[i]]; k < start_[band_[i] + 1]; ++k)
         {
             const std::size_t slot = corner_[k], e = slot/n;
             const bool isCut = cover_ && cover_->state[e] == ElementState::Cut;
             const double volume = isCut ? cover_->cuts[cover_->cutIndex[e]].first[slot % n] : mesh_.volume[e]/n;
-            shares_.push_back(slabOf(slot, volume, &mesh_.x[std::size_t(i)*dim]));
+            shares_.push_back(slabOf(slot, volume, &mesh_.x[std::size_t(i)*dim], plane, 1/width_[i]));
         }
     }
 
-    /// The whole share of a corner, whose node is at x, as a slab of its own variance.
-    Share slabOf(std::size_t slot, double volume, const double* x) const
+    /// The whole share of a corner, whose node is at x, as a slab of its own variance; scale: 1/m.
+    Share slabOf(std::size_t slot, double volume, const double* x, const double* normal, double scale) const
     {
         const std::size_t e = slot/n;
         double sum = 0, squares = 0;    // of the other corners' places along the normal
         for (int b = 0; b < n; ++b)
         {
             double along = 0;
-            for (int d = 0; d < dim; ++d) along += normal_[d]*(mesh_.x[std::size_t(mesh_.elements[e*n + b])*dim + d] - x[d]);
+            for (int d = 0; d < dim; ++d) along += normal[d]*(mesh_.x[std::size_t(mesh_.elements[e*n + b])*dim + d] - x[d]);
             sum += along;
             squares += along*along;
         }
-        const double mean = moments_.first*sum, scale = 1/(width_*mesh_.h[e]);
+        const double mean = moments_.first*sum;
         const double variance = (moments_.square - moments_.mixed)*squares + moments_.mixed*sum*sum - mean*mean;
         return {slot, volume, mean*scale, std::clamp(std::sqrt(12*std::max(0.0, variance))*scale, thinnest, farthest)};
     }
@@ -167,11 +194,11 @@ private:
         slope_.resize(size);
     }
 
-    /// Means of the profile 1/(1+exp(-psi)) over the slabs, and their derivatives by place_: differences of ln(1+exp(psi)) and of the profile.
-    void evaluateShares()
+    /// Means of the profile 1/(1+exp(-psi)) over the slabs, and their derivatives by `place`: differences of ln(1+exp(psi)) and of the profile.
+    void evaluateShares(double place)
     {
         const std::size_t size = shares_.size();
-        const double x = std::exp(place_);
+        const double x = std::exp(place);
         const double *lower = ends_.data(), *upper = lower + size;
         for (std::size_t k = 0; k < size; ++k)
         {
@@ -201,58 +228,52 @@ private:
         return std::log(std::expm1(alpha*thickness)/-std::expm1((alpha - 1)*thickness)) - 0.5*thickness - mean;
     }
 
-    /// Newton's method for the plane with which the shares have `alpha` of their volume: mean_. The last step is linear, so that they have just that. False where it finds none.
-    bool placeSurface(double alpha)
+    /// Newton's method for the plane with which the shares have `alpha` of their volume. The last step is linear, so that they have just that. False where it finds none.
+    bool placeSurface(double alpha, double* plane)
     {
         double whole = 0;
         for (const Share& s : shares_) whole += s.volume;
         if (whole <= 0) return false;
         setEnds();
-        place_ = std::clamp(firstPlace(alpha, whole), -farthest, farthest);
+        double& place = plane[Place] = std::clamp(firstPlace(alpha, whole), -farthest, farthest);
         for (int k = 0; k < maxIterations; ++k)
         {
             double mean = 0, slope = 0;
-            evaluateShares();
+            evaluateShares(place);
             for (std::size_t s = 0; s < shares_.size(); ++s)
             {
                 mean += shares_[s].volume/whole*mean_[s];
                 slope += shares_[s].volume/whole*slope_[s];
             }
-            const double step = (alpha - mean)/std::max(slope, 1e-30);
-            if (std::abs(step) < nearEnough)
-            {
-                for (std::size_t s = 0; s < shares_.size(); ++s) mean_[s] += step*slope_[s];
-                return true;
-            }
-            place_ = std::clamp(place_ + std::clamp(step, -2.0, 2.0), -farthest, farthest);
+            plane[Step] = (alpha - mean)/std::max(slope, 1e-30);
+            if (std::abs(plane[Step]) < nearEnough) return true;
+            place = std::clamp(place + std::clamp(plane[Step], -2.0, 2.0), -farthest, farthest);
         }
         return false;
     }
 
     const SimplexMesh& mesh_;
+    const Halo& halo_;
     const Cover* cover_;
-    const std::vector<double>& alpha_;
-    double width_;
+    const std::vector<double>&alpha_, &width_;
     ShareMoments moments_;
     std::vector<double> result_;
     std::vector<int> elements_;         // with nodes of the band
     std::vector<int> band_, start_;     // per node: place in start_ and gradient_, -1: not in the band
     std::vector<std::size_t> corner_;   // of the elements around the nodes of the band
     std::vector<double> gradient_;      // (dim+1) per node of the band, see setGradients()
+    std::vector<double> planes_;        // nPlane per node
     // of the present node
     std::vector<Share> shares_;
-    double normal_[dim] = {};
-    double planarity_ = 0;  // 1: all gradients around point the same way; in the middle of a sheet they cancel
-    double place_ = 0;      // of the plane: of the node from it, in widths
     std::vector<double> mean_, slope_;      // of the shares
     std::vector<double> ends_;              // of their slabs, first all lower ones: see setEnds()
 };
 
 } // namespace
 
-std::vector<double> liquidShares(const SimplexMesh& mesh, const Cover* cover, const std::vector<double>& alpha, double width)
+std::vector<double> liquidShares(const SimplexMesh& mesh, const Halo& halo, const Cover* cover, const std::vector<double>& alpha, const std::vector<double>& width)
 {
-    return mesh.dim == 2 ? Spreading<2>(mesh, cover, alpha, width).run() : Spreading<3>(mesh, cover, alpha, width).run();
+    return mesh.dim == 2 ? Spreading<2>(mesh, halo, cover, alpha, width).run() : Spreading<3>(mesh, halo, cover, alpha, width).run();
 }
 
 } // namespace flotsam

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "equations/phaseFieldSupg.hpp"
 
-#include "equations/initialProfile.hpp"
+#include "equations/interfaceWidth.hpp"
 #include "equations/jacobiBicgstab.hpp"
 
 #include <algorithm>
@@ -56,9 +56,10 @@ struct CarryingElement
 
 } // namespace
 
-PhaseFieldSupg::PhaseFieldSupg(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const NumericsControls& controls)
+PhaseFieldSupg::PhaseFieldSupg(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const NumericsControls& controls,
+    const std::array<double, 3>& gravity)
     : mesh_(mesh), graph_(graph), halo_(halo), controls_(controls),
-      width_(interfaceWidth(mesh, graph, halo, controls.interfaceWidth)), dualVolume_(dualVolumes(mesh, nullptr)),
+      width_(interfaceWidth(mesh, graph, halo, controls.interfaceWidth, gravity)), dualVolume_(dualVolumes(mesh, nullptr)),
       volumeFlux_(mesh, graph), boundary_(mesh, graph, volumeFlux_), matrix_(graph.column.size()), rhs_(mesh.nOwned),
       rowBalance_(mesh.nOwned), extrapolated_(mesh.nNodes), liquidVolume_(std::numeric_limits<double>::quiet_NaN())
 {

@@ -21,7 +21,8 @@ class PhaseFieldSupg
 public:
     /// controls.interfaceWidth: 0.75 recommended with this form; controls.mobility: gamma over |u|max, 0 means 1 here
     /// (without the model flux the profile spreads).
-    PhaseFieldSupg(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const NumericsControls& controls);
+    PhaseFieldSupg(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const NumericsControls& controls,
+        const std::array<double, 3>& gravity = {});
 
     /// As DualCellTransport::advance(); one implicit step. Throws std::runtime_error when the linear solver fails.
     TransportReport advance(std::vector<double>& alpha, double dt, const std::vector<double>& u,

@@ -15,6 +15,7 @@ namespace
 {
 
 constexpr int mostRepeats = 12, patience = 3;
+constexpr double tall = 2;              // a dual cell's thickness along gravity, over the side of the cube of its volume
 constexpr double stubborn = 0.7;        // change over the last one from which a node does not converge (sheets, corners): it is not waited for
 
 double thicknessInWidths(const DualCells& cells, int i, const double* normal, double width)
@@ -42,23 +43,37 @@ template<int D>
 class SurfaceLevel::RepeatsIn : public SurfaceLevel::Repeats
 {
 public:
-    RepeatsIn(const SimplexMesh& mesh, const Halo& halo) : halo_(halo), facing_(mesh, halo) {}
+    RepeatsIn(const SimplexMesh& mesh, const Halo& halo, const std::array<double, 3>& gravity);
     void run(const Arguments& in, std::vector<double>& work, std::vector<double>& level) override;
 
 private:
     void begin(const Arguments& in, std::vector<double>& work, const std::vector<double>& level);
+    void findTall(const DualCells& cells);
+    void levelTall(const Arguments& in, std::vector<double>& level);
     void findWanted();
     void findSlabs(const Arguments& in);
     double takeSlabs(const Arguments& in, int repeat, std::vector<double>& level);
     double change(const Arguments& in, int place, const std::vector<double>& level) const;
 
+    const SimplexMesh& mesh_;
     const Halo& halo_;
+    double down_[D] = {};                       // zero: no gravity
+    std::vector<char> isTall_;                  // per owned node; empty: none is on any rank
+    bool areTallKnown_ = false;
     FacingElements<D> facing_;
     std::vector<double> atNode_, lastChange_;   // of the band: as if alpha were the value at the node; change of the last repeat
     std::vector<double> before_;                // of the facing nodes: their level before the repeat
     std::vector<int> wanted_, moved_;           // in the band; places
     std::vector<double> share_, mean_, found_;  // of the wanted ones
 };
+
+template<int D>
+SurfaceLevel::RepeatsIn<D>::RepeatsIn(const SimplexMesh& mesh, const Halo& halo, const std::array<double, 3>& gravity)
+:   mesh_(mesh), halo_(halo), facing_(mesh, halo)
+{
+    const double size = std::hypot(gravity[0], gravity[1], gravity[2]);
+    for (int d = 0; d < D && size > 0; ++d) down_[d] = gravity[mesh.axes[d]]/size;
+}
 
 template<int D>
 void SurfaceLevel::RepeatsIn<D>::begin(const Arguments& in, std::vector<double>& work, const std::vector<double>& level)
@@ -73,6 +88,38 @@ void SurfaceLevel::RepeatsIn<D>::begin(const Arguments& in, std::vector<double>&
     for (std::size_t k = 0; k < nBand; ++k) atNode_[k] = level[facing_.band()[k]];
     lastChange_.assign(nBand, 0.0);
     before_.resize(nNodes);
+}
+
+template<int D>
+void SurfaceLevel::RepeatsIn<D>::findTall(const DualCells& cells)
+{
+    areTallKnown_ = true;
+    isTall_.resize(mesh_.nOwned);
+    for (int i = 0; i < mesh_.nOwned; ++i) isTall_[i] = 2*cells.halfWidth(i, down_) > tall*std::pow(cells.volume(i), 1./D);
+    if (!halo_.any(std::find(isTall_.begin(), isTall_.end(), 1) != isTall_.end())) std::vector<char>().swap(isTall_);
+}
+
+/// Begins with a level surface in tall cells. There the values at the nodes say nothing about its direction: where diagonals alternate, cells of neighbouring columns
+/// differ by a part of their height, which beside their width is a steep slope, or directions that cancel, for which a sheet would be taken. Of a front that
+/// stands upright the levels of neighbouring columns then differ by many widths, and the first repeat has its direction.
+template<int D>
+void SurfaceLevel::RepeatsIn<D>::levelTall(const Arguments& in, std::vector<double>& level)
+{
+    if (!areTallKnown_) findTall(in.cells);
+    if (isTall_.empty()) return;
+    facing_.sumGradients(level);
+    for (int i : facing_.band())
+    {
+        if (!isTall_[i]) continue;
+        const double* sum = facing_.sum(facing_.place(i));
+        double along = 0, normal[D], mean = in.alpha[i];
+        for (int d = 0; d < D; ++d) along += sum[d]*down_[d];
+        for (int d = 0; d < D; ++d) normal[d] = std::copysign(1, along)*down_[d];
+        double found = thicknessInWidths(in.cells, i, normal, in.width[i]);
+        frontsFromMeans(&mean, &found, 1);
+        level[i] = in.width[i]*found - centroidHeight(in.cells, i, normal, D);
+    }
+    halo_.update(level, 1);
 }
 
 template<int D>
@@ -145,6 +192,7 @@ template<int D>
 void SurfaceLevel::RepeatsIn<D>::run(const Arguments& in, std::vector<double>& work, std::vector<double>& level)
 {
     begin(in, work, level);
+    levelTall(in, level);
     for (int repeat = 0; repeat < mostRepeats; ++repeat)
     {
         facing_.sumGradients(level);
@@ -175,10 +223,10 @@ ProfileSlab profileSlab(const DualCells* cells, int i, const double* normal, dou
     return {(distance + centroidHeight(*cells, i, normal, cells->dim()))/width, thicknessInWidths(*cells, i, normal, width)};
 }
 
-SurfaceLevel::SurfaceLevel(const SimplexMesh& mesh, const Halo& halo) : mesh_(mesh)
+SurfaceLevel::SurfaceLevel(const SimplexMesh& mesh, const Halo& halo, const std::array<double, 3>& gravity) : mesh_(mesh)
 {
-    if (mesh.dim == 2) repeats_ = std::make_unique<RepeatsIn<2>>(mesh, halo);
-    else repeats_ = std::make_unique<RepeatsIn<3>>(mesh, halo);
+    if (mesh.dim == 2) repeats_ = std::make_unique<RepeatsIn<2>>(mesh, halo, gravity);
+    else repeats_ = std::make_unique<RepeatsIn<3>>(mesh, halo, gravity);
 }
 
 SurfaceLevel::~SurfaceLevel() = default;

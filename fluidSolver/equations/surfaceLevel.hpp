@@ -25,14 +25,16 @@ ProfileSlab profileSlab(const DualCells* cells, int i, const double* normal, dou
 class SurfaceLevel
 {
 public:
-    SurfaceLevel(const SimplexMesh& mesh, const Halo& halo);
+    /// gravity: space axes, any size; zero: none.
+    SurfaceLevel(const SimplexMesh& mesh, const Halo& halo, const std::array<double, 3>& gravity = {});
     ~SurfaceLevel();
 
     /// level: distance of every node from the surface [m], positive in the liquid: width ln(alpha/(1-alpha)), alpha limited to [1e-5, 1 - 1e-5], as if alpha were
     /// the profile's value at the node. With cells alpha is its mean over the dual cell, as the transport moves it: the value at the node would let the
     /// surface lag behind or run ahead of what has flowed, by its place between the nodes (docs/numerics.md, section 2). The mean depends on the
     /// surface's direction, the gradient of the result: found by repetition near the surface, at most 12 times (at planes each leaves a quarter), until nothing changes by
-    /// more than `tolerance` widths where alpha is 1/2, elsewhere by as much of alpha; nodes that do not converge are not waited for. cells, cover: may be null.
+    /// more than `tolerance` widths where alpha is 1/2, elsewhere by as much of alpha; nodes that do not converge are not waited for. It begins with the values at the
+    /// nodes, in dual cells twice as tall along gravity as the cube of their volume and taller with those of a level surface. cells, cover: may be null.
     /// work: memory for nNodes, void before and after. Collective.
     void find(const std::vector<double>& alpha, const std::vector<double>& width, const DualCells* cells, const Cover* cover, double tolerance,
         std::vector<double>& work, std::vector<double>& level);

@@ -117,10 +117,10 @@ bool FoamFields::isNeeded() const
     return mesh_.time().writeTime() || !mesh_.time().functionObjects().empty();
 }
 
-void FoamFields::update(const FlowState& state, const Cover* cover, const std::vector<Solid>& solids)
+void FoamFields::update(const FlowState& state, const std::vector<double>& width, const Cover* cover, const std::vector<Solid>& solids)
 {
     updateNodal(state, cover, solids);
-    updateCells(state, cover, solids);
+    updateCells(state, width, cover, solids);
     updatePatches();
     updatePointFields();
     if (cover) updateSolidFraction(*cover);
@@ -150,13 +150,13 @@ void FoamFields::updateNodal(const FlowState& state, const Cover* cover, const s
     }
 }
 
-void FoamFields::updateCells(const FlowState& state, const Cover* cover, const std::vector<Solid>& solids)
+void FoamFields::updateCells(const FlowState& state, const std::vector<double>& width, const Cover* cover, const std::vector<Solid>& solids)
 {
     double mean[nodalWidth];
     const Foam::label nCells = mesh_.nCells();
     std::vector<double> shares;
     if (alpha_ && controls_.numerics.dualCellTransport)
-        shares = liquidShares(adapter_.mesh, cover, state.alpha, controls_.numerics.interfaceWidth);
+        shares = liquidShares(adapter_.mesh, halo_, cover, state.alpha, width);
     for (Foam::label c = 0; c < nCells; ++c)
     {
         const bool hasFluid = cellMean(adapter_, cover, nodal_, c, mean);

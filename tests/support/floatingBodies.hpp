@@ -54,7 +54,7 @@ public:
             solids[s].shape = shape_;
             solids[s].pose.position = positions[s];
         }
-        fluid.start(waterAtRest(fluid, controls_, level, profile), false);
+        fluid.start(waterAtRest(fluid, level, profile), false);
         CoverBuilder builder(mesh_, fluid.graph(), halo_);
         for (int pass = 0; pass < 6; ++pass) builder.buildExactVolume(solids);
         fluid.setGeometry(&builder.cover(), &solids, true);

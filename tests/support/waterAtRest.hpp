@@ -3,7 +3,6 @@
 #pragma once
 
 #include "equations/fluid.hpp"
-#include "equations/initialProfile.hpp"
 #include "equations/surfaceLevel.hpp"
 #include "support/flowCases.hpp"
 
@@ -11,12 +10,12 @@ namespace flotsam
 {
 
 /// Water below `level` on the last axis of `fluid`'s mesh, alpha as means of the profile over dual cells, p = 0. profile: its width at a place over the default one. Collective.
-inline FlowState waterAtRest(const Fluid& fluid, const NumericsControls& controls, double level, const std::function<double(const double* x)>& profile = {})
+inline FlowState waterAtRest(const Fluid& fluid, double level, const std::function<double(const double* x)>& profile = {})
 {
     const SimplexMesh& mesh = fluid.mesh();
     const int dim = mesh.dim;
     const DualCells cells(mesh);
-    const std::vector<double> width = interfaceWidth(mesh, fluid.graph(), fluid.halo(), controls.interfaceWidth);
+    const std::vector<double>& width = fluid.profileWidth();
     double down[3] = {};
     down[dim - 1] = -1;
     FlowState state = restState(mesh);

@@ -2,6 +2,7 @@
 /// Fields: cell values -> nodes, nodes -> cells, patches and points, and what is written. On 1 and 2 ranks.
 #include "core/nodeGraph.hpp"
 #include "foam/boundaryConditions.H"
+#include "equations/interfaceWidth.hpp"
 #include "foam/fieldIO.H"
 #include "foam/surfaceFromCells.H"
 #include "geometry/cutSimplex.hpp"
@@ -26,6 +27,7 @@ struct Scene
     MeshAdapter adapter = makeSimplexMesh(foam.mesh(), MPI_COMM_WORLD);
     Halo halo{adapter.mesh, MPI_COMM_WORLD};
     FoamFields fields{foam.mesh(), adapter, halo, controls};
+    std::vector<double> width = interfaceWidth(adapter.mesh, NodeGraph(adapter.mesh), halo, controls.numerics.interfaceWidth);
     FlowState state;
 
     const Foam::volScalarField& scalar(const char* name) { return foam.mesh().lookupObject<Foam::volScalarField>(name); }
@@ -69,7 +71,7 @@ TEST_CASE("linear nodal fields give the linear field's value at cell and face ce
 {
     Scene s;
     s.setLinear();
-    s.fields.update(s.state, nullptr, {});
+    s.fields.update(s.state, s.width, nullptr, {});
     const Foam::fvMesh& mesh = s.foam.mesh();
     forAll(mesh.C(), c)
     {
@@ -105,7 +107,7 @@ TEST_CASE("written fields keep their boundary dictionaries")
     Scene s;
     s.setLinear();
     s.foam.time().setTime(0.1, 10);
-    s.fields.update(s.state, nullptr, {});
+    s.fields.update(s.state, s.width, nullptr, {});
     s.foam.time().writeNow();
     const std::string pressure = s.foam.read("0.1/p_rgh"), velocity = s.foam.read("0.1/U");
     CHECK(pressure.find("totalPressure") != std::string::npos);
@@ -130,7 +132,7 @@ TEST_CASE("nodal unknowns come back from the written point fields, unless the ce
     CHECK_FALSE(s.fields.readNodes(read)); // not written yet
     s.setLinear();
     s.foam.time().setTime(0.1, 10);
-    s.fields.update(s.state, nullptr, {});
+    s.fields.update(s.state, s.width, nullptr, {});
     s.foam.time().writeNow();
     REQUIRE(s.fields.readNodes(read));
     CHECK(read.time == 0.1);
@@ -150,7 +152,7 @@ TEST_CASE("what a patch prescribes by its values stays: a run that goes on reads
 {
     Scene s;
     s.fields.readStart(s.state); // p_rgh = 2
-    s.fields.update(s.state, nullptr, {});
+    s.fields.update(s.state, s.width, nullptr, {});
     const Foam::label outlet = s.foam.mesh().boundaryMesh().findPatchID("outlet");
     for (const double p : s.scalar("p_rgh").boundaryField()[outlet]) CHECK(p == 7);
 }
@@ -166,7 +168,7 @@ TEST_CASE("solid fraction is the covered volume; inside a solid the velocity is 
     box.motion.velocity = Vec3(7, 8, 9);
     const NodeGraph graph(s.adapter.mesh);
     const Cover cover = cutMesh(s.adapter.mesh, graph, s.halo, {box});
-    s.fields.update(s.state, &cover, {box});
+    s.fields.update(s.state, s.width, &cover, {box});
     double volume = 0;
     const auto& solid = s.scalar("solid");
     forAll(solid, c)
@@ -194,7 +196,7 @@ TEST_CASE("written pressures go on linearly into solids: what viewers interpolat
     const Cover cover = cutMesh(s.adapter.mesh, graph, s.halo, {disc});
     for (int i = 0; i < s.adapter.mesh.nNodes; ++i)
         if (!cover.isActiveNode[i]) s.state.p[i] = 1e9;
-    s.fields.update(s.state, &cover, {disc});
+    s.fields.update(s.state, s.width, &cover, {disc});
     const Foam::fvMesh& mesh = s.foam.mesh();
     const auto& points = mesh.lookupObject<Foam::pointScalarField>("pointP");
     double nInside = 0;

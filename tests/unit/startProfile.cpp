@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "equations/dualCells.hpp"
 #include "equations/initialProfile.hpp"
+#include "equations/interfaceWidth.hpp"
 #include "equations/interfacePlanes.hpp"
 #include "equations/surfaceLevel.hpp"
 #include "support/boxMesh.hpp"

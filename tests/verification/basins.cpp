@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Closed tanks that solids divide: every basin keeps a pressure level of its own, while the solids divide it and when they open and close.
 #include "demCoupling/coupling/coupledStep.hpp"
-#include "equations/initialProfile.hpp"
+#include "equations/interfaceWidth.hpp"
 #include "equations/surfaceLevel.hpp"
 #include "support/flowCases.hpp"
 #include "support/near.hpp"

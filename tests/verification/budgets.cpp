@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Momentum and energy of fluid, free surface, body and contact in a closed box.
 #include "demCoupling/coupling/coupledStep.hpp"
-#include "equations/initialProfile.hpp"
+#include "equations/interfaceWidth.hpp"
 #include "equations/surfaceLevel.hpp"
 #include "support/budgets.hpp"
 #include "support/flowCases.hpp"

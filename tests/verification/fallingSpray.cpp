@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Water in flight has its weight: spray above a flat surface falls.
 #include "equations/fluid.hpp"
-#include "equations/initialProfile.hpp"
+#include "equations/interfaceWidth.hpp"
 #include "equations/materials.hpp"
 #include "support/flowCases.hpp"
 #include "support/near.hpp"

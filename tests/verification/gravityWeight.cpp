@@ -3,7 +3,7 @@
 /// surface, as a head per element length and as a share of the weight of the elements in which the density varies.
 #include "core/nodeGraph.hpp"
 #include "equations/gravity.hpp"
-#include "equations/initialProfile.hpp"
+#include "equations/interfaceWidth.hpp"
 #include "equations/materials.hpp"
 #include "equations/surfaceLevel.hpp"
 #include "support/flowCases.hpp"

@@ -109,7 +109,7 @@ private:
 
     FlowState state(const Fluid& fluid) const
     {
-        FlowState s = waterAtRest(fluid, controls_, level_);
+        FlowState s = waterAtRest(fluid, level_);
         for (int i = 0; i < mesh_.nNodes; ++i) s.p[i] = std::max(level_ - height(i), 0.0)*g*rho;
         s.pOld = s.p;
         return s;

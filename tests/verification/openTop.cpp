@@ -49,7 +49,7 @@ public:
     Rest after(double time)
     {
         Fluid fluid(mesh_, halo_, properties_, controls_, patches_);
-        fluid.start(waterAtRest(fluid, controls_, level_), false);
+        fluid.start(waterAtRest(fluid, level_), false);
         const double before = fluid.liquidVolume();
         while (fluid.state().time < time)
         {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Water under air at rest on irregular meshes stays at rest, with and without a solid that pierces the surface.
 #include "equations/fluid.hpp"
-#include "equations/initialProfile.hpp"
+#include "equations/interfaceWidth.hpp"
 #include "equations/surfaceLevel.hpp"
 #include "geometry/coverBuilder.hpp"
 #include "support/flowCases.hpp"

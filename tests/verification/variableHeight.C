@@ -43,7 +43,7 @@ public:
         graph_(adapter_.mesh), builder_(adapter_.mesh, graph_, halo_),
         fluid_(adapter_.mesh, halo_, controls_.fluid, controls_.numerics, readBoundary(foam_.mesh(), adapter_, halo_, controls_))
     {
-        FlowState start = waterAtRest(fluid_, controls_.numerics, depth);
+        FlowState start = waterAtRest(fluid_, depth);
         for (int i = 0; i < adapter_.mesh.nNodes; ++i) start.u[std::size_t(i)*2] = speed;
         start.uOld = start.u;
         fluid_.start(start, false);
