@@ -180,16 +180,13 @@ void start(CoupledStep& step, RunOutput& output, const FoamFields& fields, Foam:
 /// Steps that end at a write time may be half as long as wanted; what follows grows from this multiple of them at most: BDF2 and the explicit parts bear no jump by 2.4.
 constexpr double longestAfterWrite = 1.5;
 
-/// deltaT, at most the time in which what falls freely from rest gets a Courant number of maxCo: the fields of the start do not tell how fast a dam breaks in the first step.
-double firstTimeStep(const Foam::Time& runTime, const CaseControls& controls, const SimplexMesh& mesh, const Halo& halo)
+double firstStep(const Foam::Time& runTime, const CaseControls& controls, const SimplexMesh& mesh, const Halo& halo)
 {
-    const TimeControls& time = controls.time;
-    const double given = std::min(runTime.deltaTValue(), time.maxDeltaT);
+    const double given = std::min(runTime.deltaTValue(), controls.time.maxDeltaT);
+    if (!controls.fluid.isTwoPhase) return given;
     const auto& g = controls.fluid.gravity;
-    const double gravity = std::hypot(g[0], g[1], g[2]);
-    if (!controls.fluid.isTwoPhase || gravity == 0) return given;
     const double shortest = halo.min(mesh.h.empty() ? 1e300 : *std::min_element(mesh.h.begin(), mesh.h.end()));
-    return std::min(given, std::sqrt(time.maxCo*shortest/gravity));
+    return firstTimeStep(given, controls.time.maxCo, shortest, std::hypot(g[0], g[1], g[2]));
 }
 
 /// limit: word of nextTimeStep().
@@ -275,7 +272,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     if (!runTime.run())
         Foam::Info<< "Nothing to do: the run is at " << runTime.timeName() << " s, endTime of system/controlDict is " << runTime.endTime().value() << " s" << Foam::endl;
     bool isComplete = true;
-    double dt = output.timeStep() > 0 ? output.timeStep() : firstTimeStep(runTime, controls, adapter.mesh, halo)/timeStepGrowth;
+    double dt = output.timeStep() > 0 ? output.timeStep() : firstStep(runTime, controls, adapter.mesh, halo)/timeStepGrowth;
     while (runTime.run())
     {
         updateTimeControls(runTime, time);

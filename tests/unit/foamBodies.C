@@ -20,6 +20,25 @@ TEST_CASE("no file: an empty scene")
     CHECK(makeSolids(input).empty());
 }
 
+TEST_CASE("walls and mirror planes stop bodies where nothing else is said")
+{
+    const auto walls = [](const std::vector<FoamCase::Edit>& edits)
+    {
+        FoamCase foam("foamChannel", edits);
+        const MeshAdapter adapter = makeSimplexMesh(foam.mesh(), MPI_COMM_WORLD);
+        const Halo halo(adapter.mesh, MPI_COMM_WORLD);
+        const char* body = "bodies { bar { shape { type box; size (0.1 0.1 0.1); } density 500; position (1 0.5 0.05); } }";
+        return readBodies(parse(body), foam.mesh(), adapter.mesh, halo, Vec3(0, -9.81, 0)).wallPatches;
+    };
+    const std::vector<std::string> floor{"floor"}, both{"outlet", "floor"};
+    CHECK(walls({}) == floor);
+    for (const std::string type : {"symmetryPlane", "symmetry"})
+    {
+        CHECK(walls({{"system/blockMeshDict", "floor { type wall;", "floor { type " + type + ";"}}) == floor);
+        CHECK(walls({{"system/blockMeshDict", "outlet { type patch;", "outlet { type " + type + ";"}}) == both);
+    }
+}
+
 /// Whether a ball of that radius inside the shape touches the surface at x: no edge.
 bool isFlat(const Shape& shape, const Vec3& x, double radius)
 {

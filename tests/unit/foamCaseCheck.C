@@ -12,6 +12,33 @@
 
 using namespace flotsam;
 
+TEST_CASE("prescribed velocities must let out what they let in, unless a patch is open")
+{
+    const auto message = [](const std::string& outlet, const std::string& top)
+    {
+        FoamCase foam("foamChannel", {{"0/U", "flowRateInletVelocity; volumetricFlowRate constant 0.05; value uniform (0 0 0);", "fixedValue; value uniform (1 0 0);"},
+            {"0/U", "outlet { type zeroGradient; }", "outlet { type fixedValue; value uniform (" + outlet + " 0 0); }"}, {"0/U", "top { type pressureInletOutletVelocity; value uniform (0 0 0); }", top},
+            {"0/p_rgh", "outlet { type fixedValue; value uniform 7; }", "outlet { type fixedFluxPressure; value uniform 0; }"},
+            {"0/p_rgh", "top { type totalPressure; p0 uniform 3; }", top.find("slip") == std::string::npos ? "top { type totalPressure; p0 uniform 3; }" : "top { type slip; }"},
+            {"0/alpha.water", "inlet { type variableHeightFlowRate; lowerBound 0.1; upperBound 0.9; value uniform 0; }", "inlet { type fixedValue; value uniform 1; }"}});
+        const CaseControls controls = readCaseControls(foam.time());
+        const MeshAdapter adapter = makeSimplexMesh(foam.mesh(), MPI_COMM_WORLD);
+        const Halo halo(adapter.mesh, MPI_COMM_WORLD);
+        FlowState state;
+        state.u.assign(std::size_t(adapter.mesh.nNodes)*2, 0.0);
+        state.alpha.assign(adapter.mesh.nNodes, 1.0);
+        try { checkInflow(adapter, halo, readBoundary(foam.mesh(), adapter, halo, controls), state, nullptr, 0); }
+        catch (const std::invalid_argument& e) { return std::string(e.what()); }
+        return std::string();
+    };
+    const std::string shut = "top { type slip; }", open = "top { type pressureInletOutletVelocity; value uniform (0 0 0); }";
+    CHECK(message("1", shut).empty());
+    CHECK(message("1.005", shut).empty());
+    CHECK(message("0.5", open).empty());
+    CHECK(message("0.5", shut).find("0.1") != std::string::npos);     // m^3/s that come in through 1 m x 0.1 m
+    CHECK(!message("0", shut).empty());
+}
+
 TEST_CASE("report of a channel with and without bodies")
 {
     FoamCase foam("foamChannel");

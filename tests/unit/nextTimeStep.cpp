@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/nextTimeStep.hpp"
+#include "support/near.hpp"
 
 #include <doctest/doctest.h>
 
@@ -20,6 +21,14 @@ TEST_CASE("the time step is the shortest of what limits it")
     time.adjustTimeStep = false;
     time.deltaT = 0.3;
     CHECK(nextTimeStep(100, 100, time, 0.01) == std::pair(0.3, std::string("fixed")));
+}
+
+TEST_CASE("in the first step what falls goes no farther than maxCo elements")
+{
+    const double maxCo = 0.5, h = 0.02, g = 9.81, dt = firstTimeStep(1, maxCo, h, g);
+    CHECK(g*dt*dt/h == near(maxCo, 1e-14));
+    CHECK(firstTimeStep(0.1*dt, maxCo, h, g) == 0.1*dt);
+    CHECK(firstTimeStep(1, maxCo, h, 0) == 1);
 }
 
 TEST_CASE("bodies that have come to rest do not overflow the time step")
