@@ -87,6 +87,15 @@ DemSetup makeDemSetup(const BodiesInput& input, double timeStep, double startTim
     return setup;
 }
 
+/// Ends messages about fluid that has become too fast: what has made it so beside structures that move.
+std::string gapAdvice(const CoupledStep& step)
+{
+    const std::vector<Solid>& solids = step.scene().solids();
+    if (std::none_of(solids.begin(), solids.end(), [](const Solid& s) { return s.kind == Solid::Kind::Prescribed; })) return "";
+    return ". Does a structure that moves close a gap to a patch there that lets nothing through? That patch must be of type wall in constant/polyMesh/boundary:"
+        " then the gap shuts from a hundredth of an element on";
+}
+
 /// One step of at most dt, repeated with smaller steps when it fails. Returns the step used and its result.
 StepResult advance(CoupledStep& step, const TimeControls& time, double& dt, RunOutput& output)
 {
@@ -97,7 +106,8 @@ StepResult advance(CoupledStep& step, const TimeControls& time, double& dt, RunO
         output.countRejected(result.failure, dt);
         dt *= retryFactor;
         if (retry == maxRetries || dt < time.minDeltaT)
-            throw std::runtime_error(text("no step could be made from t = ", step.fluid().state().time, " s: ", result.failure, " down to a step of ", dt/retryFactor, " s"));
+            throw std::runtime_error(text("no step could be made from t = ", step.fluid().state().time, " s: ", result.failure, " down to a step of ", dt/retryFactor,
+                " s. The fastest fluid there: ", step.fluid().describeFastest(), gapAdvice(step)));
     }
 }
 
@@ -199,7 +209,7 @@ void checkTimeStep(double wanted, const std::string& limit, const TimeControls& 
         throw std::runtime_error(text(begin, "the surface of ", solid, " moves with ", speed, " m/s, and it may go maxBodyCo ", time.maxBodyCo,
             " elements in a step. Is that speed meant? Then give a smaller minDeltaT, or a larger maxBodyCo"));
     throw std::runtime_error(text(begin, step.fluid().describeFastest(), ". The solution has become unstable there: look at the last written fields,"
-        " reduce maxCo, or refine the mesh"));
+        " reduce maxCo, or refine the mesh", gapAdvice(step)));
 }
 
 /// After a step: the fields where someone looks at them, and at a written time the state to restart from. A stop signal makes it the last step.

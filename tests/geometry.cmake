@@ -8,4 +8,5 @@ flotsam_test(cover unit SOURCES unit/cover.cpp LIBRARIES flotsam_geometry flotsa
 flotsam_test(thinSolids unit SOURCES unit/thinSolids.cpp LIBRARIES flotsam_geometry flotsam_test_support RANKS 1 2)
 flotsam_test(closedSurfaces unit SOURCES unit/closedSurfaces.cpp LIBRARIES flotsam_geometry flotsam_test_support RANKS 1 2)
 flotsam_test(wallFilm unit SOURCES unit/wallFilm.cpp LIBRARIES flotsam_geometry flotsam_test_support RANKS 1 2)
+flotsam_test(wallJoints unit SOURCES unit/wallJoints.cpp LIBRARIES flotsam_geometry flotsam_test_support RANKS 1 2)
 flotsam_test(cutGeometry verification SOURCES verification/cutGeometry.cpp LIBRARIES flotsam_geometry flotsam_test_support)

@@ -269,7 +269,20 @@ void RunOutput::record(const CoupledStep& step, const StepResult& result, const 
     const std::string text = log_.stepLine(line);
     Foam::Info<< text.c_str() << Foam::flush;
     reportComings(records);
+    reportSqueezed(step);
     for (const std::string& waiting : result.waiting) Foam::Info<< waiting.c_str() << Foam::endl;
+}
+
+/// Once.
+void RunOutput::reportSqueezed(const CoupledStep& step)
+{
+    constexpr double negligible = 1e-6;     // of the liquid
+    if (isSqueezedReported_ || unbalanced_ <= negligible*mass_.final) return;
+    isSqueezedReported_ = true;
+    const std::string where = step.fluid().describeSqueezed();
+    if (where.empty()) return;
+    Foam::Info<< "t = " << runTime_.value() << " s: structure " << where.c_str() << " changes the volume of fluid that nothing lets in or out. Gas makes room, and where"
+        " there is none liquid appears elsewhere in the mesh. Was a way out meant? Leave a gap of an element, or an open patch" << Foam::endl;
 }
 
 void RunOutput::reportComings(const std::vector<BodyRecord>& records)

@@ -74,7 +74,7 @@ double longestWay(const SimplexMesh& mesh, const Halo& halo, const std::vector<d
     return halo.max(way);
 }
 
-std::string describeFastest(const SimplexMesh& mesh, const Halo& halo, const FlowState& state)
+std::string describeFastest(const SimplexMesh& mesh, const Halo& halo, const FlowState& state, const Cover* cover, const std::vector<Solid>* solids)
 {
     double best = -1;
     int at = -1;
@@ -84,16 +84,23 @@ std::string describeFastest(const SimplexMesh& mesh, const Halo& halo, const Flo
         if (speed > best) { best = speed; at = i; }
     }
     const double fastest = halo.max(best);
-    double where[4] = {0, 0, 0, 0};
-    if (best == fastest && at >= 0)
+    double where[6] = {}; // place, alpha, distance from the nearest solid, its number from 1 on
+    const bool isHere = halo.min(best == fastest ? halo.rank() : halo.size()) == halo.rank();
+    if (isHere && at >= 0)
     {
         const std::array<double, 3> x = mesh.spacePoint(at);
         std::copy(x.begin(), x.end(), where);
         where[3] = state.alpha[at];
+        if (cover && cover->nearestSolid[at] >= 0)
+        {
+            where[4] = cover->distance[at];
+            where[5] = 1 + cover->nearestSolid[at];
+        }
     }
-    halo.sum(where, 4);
+    halo.sum(where, 6);
     std::ostringstream text;
     text << "|u| = " << std::sqrt(fastest) << " m/s at (" << where[0] << ' ' << where[1] << ' ' << where[2] << "), alpha " << where[3];
+    if (where[5] > 0) text << ", " << std::abs(where[4]) << (where[4] < 0 ? " m inside of '" : " m from '") << (*solids)[std::size_t(where[5]) - 1].name << '\'';
     return text.str();
 }
 

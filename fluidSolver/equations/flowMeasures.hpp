@@ -28,8 +28,9 @@ CourantRates courantRates(const SimplexMesh& mesh, const Halo& halo, const Cover
 /// Largest way of a node with liquid in the last time step, in widths (one per node [m]).
 double longestWay(const SimplexMesh& mesh, const Halo& halo, const std::vector<double>& width, const FlowState& state);
 
-/// The fastest place, for messages: "|u| = 12 m/s at (0.1 0.2 0), alpha 0.01".
-std::string describeFastest(const SimplexMesh& mesh, const Halo& halo, const FlowState& state);
+/// The fastest place, for messages: "|u| = 12 m/s at (0.1 0.2 0), alpha 0.01, 0.002 m from 'gate'". cover: null without solids, else of the solids; they are named where they
+/// are near. Collective.
+std::string describeFastest(const SimplexMesh& mesh, const Halo& halo, const FlowState& state, const Cover* cover, const std::vector<Solid>* solids);
 
 /// int alpha over the fluid part [m^3], of a 2D mesh by its thickness.
 double liquidVolume(const SimplexMesh& mesh, const Halo& halo, const Cover* cover, const std::vector<double>& alpha);

@@ -18,6 +18,7 @@
 #include "equations/massFluxes.hpp"
 #include "equations/phaseFieldSupg.hpp"
 #include "equations/shutPockets.hpp"
+#include "equations/squeezedBasins.hpp"
 #include "equations/surfaceLevel.hpp"
 
 #include <memory>
@@ -66,8 +67,11 @@ public:
     /// Mean and largest |u|/h over the active elements [1/s]. Collective.
     CourantRates courantRates() const { return flotsam::courantRates(mesh_, halo_, cover_, state_); }
 
-    /// The fastest place, for messages: "|u| = 12 m/s at (0.1 0.2 0), alpha 0.01". Collective.
-    std::string describeFastest() const { return flotsam::describeFastest(mesh_, halo_, state_); }
+    /// The fastest place, for messages: "|u| = 12 m/s at (0.1 0.2 0), alpha 0.01, 0.002 m from 'gate'". Collective.
+    std::string describeFastest() const { return flotsam::describeFastest(mesh_, halo_, state_, cover_, solids_); }
+
+    /// Of the last step, for messages: the structure that changes the volume of fluid that nothing lets in or out, and where; empty: none. Collective.
+    std::string describeSqueezed() const { return cover_ && solids_ ? flotsam::describeSqueezed(mesh_, halo_, *cover_, *solids_, equation_.system().level) : ""; }
 
     /// Liquid volume int alpha over the fluid part [m^3]. Collective.
     double liquidVolume() const { return flotsam::liquidVolume(mesh_, halo_, cover_, state_.alpha); }

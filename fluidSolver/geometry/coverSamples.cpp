@@ -93,7 +93,7 @@ void CoverBuilder::sample(const Solid& solid, std::vector<Sample>& samples) cons
         double faces[maxFaces];
         const int nFaces = !sharp ? 0 : solid.planeFaces ? solid.planeFaces->distances(y, faces) : shape.faceDistances(y, faces);
         const double* nearest = std::max_element(faces, faces + nFaces);
-        const double d = nFaces > 0 ? *nearest : linearDistance(y);
+        const double d = film_.joined(node, solid, nFaces > 0 ? *nearest : linearDistance(y));
         if (d > limit) return;
         const int face = static_cast<int>(nearest - faces);
         Sample sample{node, face, face, d, noFilm};

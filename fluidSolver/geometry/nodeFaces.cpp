@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/nodeFaces.hpp"
 
+#include <algorithm>
+
 namespace flotsam
 {
 
@@ -30,7 +32,15 @@ void NodeFaces::evaluate(Row& row) const
         row.nFaces = 1;
         row.distances[0] = std::max(row.solid->distance(place), film_.thickness(row.node, *row.solid));
     }
+    join(row);
     for (int k = 0; k < row.nFaces; ++k) row.distances[k] = snapped(row.distances[k], snap_[row.node]);
+}
+
+/// All faces that have the node outside, by what the solid as a whole is inside.
+void NodeFaces::join(Row& row) const
+{
+    const double nearest = *std::max_element(row.distances, row.distances + row.nFaces), joined = film_.joined(row.node, *row.solid, nearest);
+    for (int k = 0; k < row.nFaces && joined < nearest; ++k) row.distances[k] = std::min(row.distances[k], joined);
 }
 
 } // namespace flotsam

@@ -33,6 +33,7 @@ private:
     struct Row { const Solid* solid; int node, nFaces; double distances[maxFaces]; };
 
     void evaluate(Row& row) const;
+    void join(Row& row) const;
 
     const SimplexMesh& mesh_;
     const WallFilm& film_;

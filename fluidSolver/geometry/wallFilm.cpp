@@ -18,12 +18,6 @@ constexpr double facingCosine = 0.5;    // least one of a face that looks at the
 constexpr double flatCosine = 0.9;      // of one that lies on it, and ends there: the film goes on to its rim
 constexpr double oppositeCosine = -0.5; // of the normals of walls that face each other
 
-/// Without the offset, which the cut still looks for.
-double plainDistance(const Solid& solid, const Vec3& x)
-{
-    return solid.shape->distance(solid.pose.orientation.conjugate()*(x - solid.pose.position));
-}
-
 /// Nodes with an element between two walls that face each other: off both, nothing would be left of a body between. height: 0 off the walls.
 std::vector<double> narrowNodes(const SimplexMesh& mesh, const std::vector<double>& normal, const std::vector<double>& height)
 {
@@ -152,6 +146,12 @@ void WallFilm::findFaces(const Halo& halo)
         for (int k = 0; k < int(own[0]); k += 3) corners_.emplace_back(own[1 + k], own[2 + k], own[3 + k]);
         node.endCorner = corners_.size();
     }
+}
+
+/// Without the offset, which the cut still looks for.
+double WallFilm::plainDistance(const Solid& solid, const Vec3& x)
+{
+    return solid.shape->distance(solid.pose.orientation.conjugate()*(x - solid.pose.position));
 }
 
 /// 1: the solid reaches into a face of the wall at the node; 0: it stays a film's thickness away from all of them. distances: of its faces, at the node;

@@ -33,6 +33,10 @@ public:
     /// FilmNode::share of a solid `distance` away from the node [m].
     double share(int node, const Solid& solid, double distance) const;
 
+    /// Distance that the cut has of a solid `distance` away from the node [m]: that, or just inside of a structure that moves and has come as near to the wall as
+    /// makes no difference, at the node and all around it (wallJoints.cpp).
+    double joined(int node, const Solid& solid, double distance) const;
+
 private:
     struct WallNode
     {
@@ -41,6 +45,7 @@ private:
         std::size_t firstCorner = 0, endCorner = 0; // in corners_
     };
 
+    static double plainDistance(const Solid& solid, const Vec3& x);
     const WallNode* wallNode(int node, const Solid& solid) const;
     Vec3 pointOver(int node, const WallNode& wall, double heights) const;
     void findFaces(const Halo& halo);

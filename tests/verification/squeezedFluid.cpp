@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -188,6 +189,65 @@ TEST_CASE("a gap of a hundredth of an element that closes: its fluid does not le
     }
     std::printf("fastest %.1f times the hammer\n", fastest/speed);
     CHECK(fastest < 0.5*press.mesh.h[0]/gap*speed); // half an element at either end is not thin
+}
+
+TEST_CASE("a plate that comes down on a wall gets there in steps of the Courant number, and what it presses out has a bound")
+{
+    constexpr double speed = 0.8, maxCo = 0.7, start = 0.02, least = 0.01/20; // gaps: 0.4 and a hundredth of an element
+    for (const Solid::Wall wall : {Solid::Wall::NoSlip, Solid::Wall::Slip})
+    {
+        Press press;
+        press.mesh.patches[2].type = "wall";
+        const auto run = press.plate(start + 0.085, speed, wall);
+        double fastest = 0, last = 0;
+        int steps = 0;
+        for (double dt = 1e-3; run->fluid().state().time < 2*start/speed && steps < 400; ++steps)
+        {
+            REQUIRE(run->step(dt).isAccepted);
+            last = largestSpeed(press.mesh, press.halo, run->fluid().state().u);
+            fastest = std::max(fastest, last);
+            const double rate = courantRates(press.mesh, press.halo, run->cover(), run->fluid().state()).largest;
+            dt = std::min({1e-3, 1.2*dt, maxCo/rate});
+        }
+        std::printf("plate on the floor after %d steps, fastest %.0f, at the end %.1f times the plate\n", steps, fastest/speed, last/speed);
+        CHECK(steps < 200);
+        CHECK(fastest < 1.5*0.165/least*speed);
+        CHECK(last < 0.2*fastest);
+    }
+}
+
+TEST_CASE("a piston with less than a hundredth of an element beside it shuts in what is under it")
+{
+    Press press;
+    for (int p : {0, 1, 2}) press.mesh.patches[p].type = "wall";
+    const double speed = 0.8;
+    for (const double slit : {0.0, 1e-5, 4e-4})
+    {
+        SceneStructure piston;
+        piston.solid.name = "piston";
+        piston.solid.kind = Solid::Kind::Prescribed;
+        piston.solid.wall = Solid::Wall::Slip;
+        piston.solid.shape = makeBox(Vec3::Zero(), Vec3(1 - 2*slit, 1, 1));
+        piston.motion = [&](double time, Pose& pose, Motion& motion)
+        {
+            pose.position = Vec3(0.5, 1.1 - speed*time, 0.5);
+            motion.velocity = Vec3(0, -speed, 0);
+        };
+        CoupledStep run(press.mesh, press.halo, press.fluid, press.controls, press.patches, Scene({piston}, {}, Vec3::Zero()), nullptr, press.timers);
+        run.start(restState(press.mesh), true);
+        double fastest = 0;
+        for (int k = 0; k < 40; ++k)
+        {
+            const StepResult result = run.step(0.01);
+            REQUIRE(result.isAccepted);
+            CHECK(result.hasConverged);
+            fastest = std::max(fastest, largestSpeed(press.mesh, press.halo, run.fluid().state().u));
+        }
+        std::printf("slit of %g: fastest %.1f times the piston\n", slit, fastest/speed);
+        CHECK(fastest < 5*speed);
+        CHECK(run.fluid().describeSqueezed().find("'piston' about (0.5 0.2") == 0);     // its lower side
+        CHECK(run.fluid().describeFastest().find("piston'") != std::string::npos);
+    }
 }
 
 TEST_CASE("a step whose equations are not a number is not accepted")
