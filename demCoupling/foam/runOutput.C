@@ -215,6 +215,9 @@ void RunOutput::takeSums(RunState& state)
 void RunOutput::begin(const CoupledStep& step)
 {
     last_ = step.records();
+    double volume = 0;
+    for (int e = 0; e < mesh_.nElements; ++e) volume += mesh_.isOwnedElement[e] ? mesh_.volume[e] : 0;
+    meshVolume_ = mesh_.thickness*halo_.sum(volume);
     mass_.final = step.fluid().liquidVolume();
     if (mass_.initial == 0) mass_.initial = mass_.final;
     if (halo_.rank() == 0)
@@ -276,8 +279,8 @@ void RunOutput::record(const CoupledStep& step, const StepResult& result, const 
 /// Once.
 void RunOutput::reportSqueezed(const CoupledStep& step)
 {
-    constexpr double negligible = 1e-6;     // of the liquid
-    if (isSqueezedReported_ || unbalanced_ <= negligible*mass_.final) return;
+    constexpr double negligible = 1e-6;     // of the mesh
+    if (isSqueezedReported_ || unbalanced_ <= negligible*meshVolume_) return;
     isSqueezedReported_ = true;
     const std::string where = step.fluid().describeSqueezed();
     if (where.empty()) return;

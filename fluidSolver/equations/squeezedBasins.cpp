@@ -2,6 +2,8 @@
 #include "equations/squeezedBasins.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <sstream>
 
 namespace flotsam
