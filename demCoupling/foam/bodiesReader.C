@@ -34,7 +34,7 @@ Solid::Wall readWallKind(const Foam::dictionary& dict)
 void readStructureGroup(const std::string& name, const Foam::dictionary& dict, const SceneFrame& frame, BodiesInput& input)
 {
     checkKeywords(dict, {"shape", "material", "wall", "position", "orientation", "array", "motion", "contact", "facetSize", "spheres"});
-    const auto shape = readShape(dict.subDict("shape"), frame.stlFolder);
+    const auto shape = readShape(subGroup(dict, "shape"), frame.stlFolder);
     const Pose first = readPose(dict);
     const double facetSize = readNumberOr(dict, "facetSize", 0.25*thinnestExtent(*shape, frame), positive);
     const bool touches = dict.getOrDefault<bool>("contact", true);
@@ -62,9 +62,9 @@ void readStructureGroup(const std::string& name, const Foam::dictionary& dict, c
 void readStructures(const Foam::dictionary& dict, const SceneFrame& frame, BodiesInput& input)
 {
     if (!dict.found("structures")) return;
-    for (const Foam::entry& e : dict.subDict("structures"))
+    for (const Foam::entry& e : subGroup(dict, "structures"))
     {
-        if (!e.isDict()) failIn(dict.subDict("structures"), text("'", std::string(e.keyword()), "' must be a structure: name { shape {..} .. }."));
+        if (!e.isDict()) failIn(subGroup(dict, "structures"), text("'", std::string(e.keyword()), "' must be a structure: name { shape {..} .. }."));
         readStructureGroup(e.keyword(), e.dict(), frame, input);
     }
 }
@@ -73,9 +73,9 @@ std::vector<BodyGroup> readGroups(const Foam::dictionary& dict, const SceneFrame
 {
     std::vector<BodyGroup> groups;
     if (!dict.found("bodies")) return groups;
-    for (const Foam::entry& e : dict.subDict("bodies"))
+    for (const Foam::entry& e : subGroup(dict, "bodies"))
     {
-        if (!e.isDict()) failIn(dict.subDict("bodies"), text("'", std::string(e.keyword()), "' must be a body: name { shape {..} density ..; .. }."));
+        if (!e.isDict()) failIn(subGroup(dict, "bodies"), text("'", std::string(e.keyword()), "' must be a body: name { shape {..} density ..; .. }."));
         groups.push_back(readBodyGroup(e.keyword(), e.dict(), frame));
     }
     makeSpheres(groups);
@@ -137,7 +137,7 @@ void addMovers(const Foam::dictionary& dict, const SceneFrame& frame, const std:
     {
         if (s.wall < 0 || !s.motion) continue;
         s.wall = static_cast<int>(input.walls.size() + input.movers.size());
-        input.movers.push_back(makeMover(dict.subDict("structures").subDict(s.group), frame, s, smallest));
+        input.movers.push_back(makeMover(subGroup(subGroup(dict, "structures"), s.group), frame, s, smallest));
     }
 }
 

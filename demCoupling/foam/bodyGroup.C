@@ -38,7 +38,7 @@ void readGroupSpheres(const Foam::dictionary& dict, BodyGroup& group)
 {
     const double thinnest = group.prototype.thinnest;
     group.sphereRadius = 0.25*thinnest;
-    if (dict.found("spheres")) readSpheres(dict.subDict("spheres"), thinnest, group.sphereRadius, group.sphereSpacing);
+    if (dict.found("spheres")) readSpheres(subGroup(dict, "spheres"), thinnest, group.sphereRadius, group.sphereSpacing);
 }
 
 /// A pose of the user's frame -> of the body frame; 2D: moved to the mid-plane.
@@ -155,7 +155,7 @@ RandomPlacement readRandom(const Foam::dictionary& dict)
     }
     r.from = r.interval = 0;
     if (!dict.found("release")) return r;
-    const Foam::dictionary& release = dict.subDict("release");
+    const Foam::dictionary& release = subGroup(dict, "release");
     checkKeywords(release, {"from", "interval"});
     r.from = readNumberOr(release, "from", 0, notNegative);
     r.interval = readNumberOr(release, "interval", 0, notNegative);
@@ -191,7 +191,7 @@ bool drawPose(const BodyGroup& group, const RandomPlacement& random, const Eigen
 
 void placeRandomly(BodyGroup& group, const SceneFrame& frame, Obstacles& obstacles)
 {
-    const Foam::dictionary& dict = group.dict->subDict("random");
+    const Foam::dictionary& dict = subGroup(*group.dict, "random");
     const RandomPlacement random = readRandom(dict);
     RandomNumbers numbers(random.seed);
     const Eigen::Quaterniond base = readOrientation(*group.dict);
@@ -232,7 +232,7 @@ std::vector<Vec3> readArray(const Foam::dictionary& dict, bool& isArray)
 {
     isArray = dict.found("array");
     if (!isArray) return {Vec3::Zero()};
-    const Foam::dictionary& array = dict.subDict("array");
+    const Foam::dictionary& array = subGroup(dict, "array");
     checkKeywords(array, {"count", "spacing"});
     const Vec3 count = readVec3(array, "count"), spacing = readVec3(array, "spacing");
     for (int d = 0; d < 3; ++d)
@@ -295,7 +295,7 @@ BodyGroup readBodyGroup(const std::string& name, const Foam::dictionary& dict, c
         failIn(dict, "Give only one of 'array', 'poses' and 'random'.");
     BodyGroup group;
     group.dict = &dict;
-    const PrincipalShape principal = toPrincipalFrame(readShape(dict.subDict("shape"), frame.stlFolder));
+    const PrincipalShape principal = toPrincipalFrame(readShape(subGroup(dict, "shape"), frame.stlFolder));
     BodyDefinition& body = group.prototype;
     body.name = name;
     body.shape = principal.shape;

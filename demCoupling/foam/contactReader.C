@@ -18,7 +18,7 @@ std::vector<std::string> materialNames(const Foam::dictionary& bodies)
     if (!bodies.found("materials")) return {"default"};
     std::vector<std::string> names;
     if (bodies.isDict("materials"))
-        for (const Foam::word& name : bodies.subDict("materials").toc()) names.push_back(name);
+        for (const Foam::word& name : subGroup(bodies, "materials").toc()) names.push_back(name);
     else
         for (const Foam::word& name : bodies.get<Foam::wordList>("materials")) names.push_back(name);
     if (names.empty()) failIn(bodies, "'materials' is empty: list at least one name, for instance (wood steel).");
@@ -57,18 +57,18 @@ MaterialTable readMaterials(const Foam::dictionary& bodies)
     table.laws.assign(n*n, ContactLaw());
     if (!bodies.found("contact")) return table;
 
-    const Foam::dictionary& contact = bodies.subDict("contact");
+    const Foam::dictionary& contact = subGroup(bodies, "contact");
     const auto pairs = pairNames(table.names);
     std::vector<std::string> known{"default"};
     for (const auto& pair : pairs) known.push_back(pair.first);
     checkKeywords(contact, known);
 
     ContactLaw byDefault;
-    if (contact.found("default")) byDefault = readLaw(contact.subDict("default"), byDefault);
+    if (contact.found("default")) byDefault = readLaw(subGroup(contact, "default"), byDefault);
     table.laws.assign(n*n, byDefault);
     for (const auto& [name, which] : pairs)
         if (contact.found(name, Foam::keyType::LITERAL))
-            table.laws[which.first*n + which.second] = table.laws[which.second*n + which.first] = readLaw(contact.subDict(name), byDefault);
+            table.laws[which.first*n + which.second] = table.laws[which.second*n + which.first] = readLaw(subGroup(contact, name), byDefault);
     return table;
 }
 

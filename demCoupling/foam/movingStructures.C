@@ -51,7 +51,7 @@ void readContactSpheres(const Foam::dictionary& dict, const SceneFrame& frame, S
     structure.sphereRadius = 0.25*thinnest;
     if (!dict.found("spheres")) return;
     if (!structure.motion) failIn(dict, "Entry 'spheres' is for structures with 'motion': of others bodies feel the facets (entry facetSize). Remove it.");
-    readSpheres(dict.subDict("spheres"), thinnest, structure.sphereRadius, structure.sphereSpacing);
+    readSpheres(subGroup(dict, "spheres"), thinnest, structure.sphereRadius, structure.sphereSpacing);
 }
 
 MoverDefinition makeMover(const Foam::dictionary& dict, const SceneFrame& frame, const StructureDefinition& structure, double smallest)

@@ -26,7 +26,7 @@ void checkEnds(const Foam::dictionary& dict)
 std::shared_ptr<const Shape> readParts(const Foam::dictionary& dict, const Foam::fileName& stlFolder)
 {
     std::vector<std::shared_ptr<const Shape>> parts;
-    for (const Foam::entry& part : dict.subDict("parts"))
+    for (const Foam::entry& part : subGroup(dict, "parts"))
     {
         if (!part.isDict()) failIn(dict, text("parts: '", std::string(part.keyword()), "' must be a shape { type ..; .. }."));
         parts.push_back(readShape(part.dict(), stlFolder));
@@ -139,7 +139,7 @@ std::shared_ptr<const Shape> readShape(const Foam::dictionary& dict, const Foam:
 Eigen::Quaterniond readOrientation(const Foam::dictionary& parent)
 {
     if (!parent.found("orientation")) return Eigen::Quaterniond::Identity();
-    const Foam::dictionary& dict = parent.subDict("orientation");
+    const Foam::dictionary& dict = subGroup(parent, "orientation");
     checkKeywords(dict, {"axis", "angleDeg"});
     const double angle = readNumber(dict, "angleDeg", {-360, 360})*M_PI/180;
     return Eigen::Quaterniond(Eigen::AngleAxisd(angle, readDirection(dict, "axis")));
@@ -153,7 +153,7 @@ Pose readPose(const Foam::dictionary& dict)
 PrescribedMotion readMotion(const Foam::dictionary& parent, const Pose& start)
 {
     if (!parent.found("motion")) return {};
-    const Foam::dictionary& dict = parent.subDict("motion");
+    const Foam::dictionary& dict = subGroup(parent, "motion");
     const std::string type = dict.get<Foam::word>("type");
     if (type == "linear") return linearMotion(dict, start);
     if (type == "oscillating") return oscillation(dict, start);

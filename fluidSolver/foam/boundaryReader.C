@@ -24,13 +24,13 @@ public:
     /// Entry of a patch by name, then group (last wins), then pattern: the order in which OpenFOAM reads fields.
     const Foam::dictionary& patch(const Foam::polyPatch& patch) const
     {
-        const Foam::dictionary& boundary = dict_.subDict("boundaryField");
-        if (boundary.found(patch.name(), Foam::keyType::LITERAL)) return boundary.subDict(patch.name());
+        const Foam::dictionary& boundary = subGroup(dict_, "boundaryField");
+        if (boundary.found(patch.name(), Foam::keyType::LITERAL)) return subGroup(boundary, patch.name());
         for (auto entry = boundary.crbegin(); entry != boundary.crend(); ++entry)
             if (entry->isDict() && entry->keyword().isLiteral() && patch.inGroups().found(entry->keyword())) return entry->dict();
         if (!boundary.found(patch.name()))
             failIn(boundary, text("Cannot find patchField entry for ", patch.name(), "."));
-        return boundary.subDict(patch.name());
+        return subGroup(boundary, patch.name());
     }
 
     Foam::dimensionSet dimensions() const { return dict_.get<Foam::dimensionSet>("dimensions"); }

@@ -123,7 +123,7 @@ void readTwoFluids(const Foam::dictionary& transport, CaseControls& controls)
     for (int i = 0; i < 2; ++i)
     {
         if (!transport.isDict(phases[i])) failIn(transport, text("Entry 'phases' names ", phases[i], ", of which there is no dictionary: ", phases[i], " { transportModel Newtonian; nu ..; rho ..; }"));
-        const Foam::dictionary& phase = transport.subDict(phases[i]);
+        const Foam::dictionary& phase = subGroup(transport, phases[i]);
         checkNewtonian(phase);
         *rho[i] = readDimensioned(phase, "rho", Foam::dimDensity);
         *mu[i] = *rho[i]*readDimensioned(phase, "nu", Foam::dimViscosity);
@@ -207,7 +207,7 @@ void checkOtherModels(const Foam::Time& runTime)
 double readReferencePressure(const Foam::dictionary& fvSolution)
 {
     for (const char* algorithm : {"PIMPLE", "PISO", "SIMPLE"})
-        if (fvSolution.found(algorithm)) return fvSolution.subDict(algorithm).getOrDefault<Foam::scalar>("pRefValue", 0);
+        if (fvSolution.found(algorithm)) return subGroup(fvSolution, algorithm).getOrDefault<Foam::scalar>("pRefValue", 0);
     return 0;
 }
 
@@ -259,7 +259,7 @@ void checkLaminar(const Foam::dictionary& turbulence)
         failIn(turbulence, text("simulationType ", type, " is not modelled; allowed: laminar.\n    flotsamFoam has no turbulence model: the "
             "stabilised method acts as an implicit large-eddy model on what the mesh resolves. Set 'simulationType laminar;'."));
     if (!turbulence.found("laminar")) return;
-    const Foam::dictionary& laminar = turbulence.subDict("laminar");
+    const Foam::dictionary& laminar = subGroup(turbulence, "laminar");
     const Foam::word model = laminar.getOrDefault<Foam::word>("laminarModel", laminar.getOrDefault<Foam::word>("model", "Stokes"));
     if (model != "Stokes") failIn(laminar, text("laminarModel ", model, " is not modelled; allowed: Stokes."));
 }
@@ -268,7 +268,7 @@ NumericsControls readNumerics(const Foam::dictionary& fvSolution)
 {
     NumericsControls numerics;
     if (!fvSolution.found("flotsam")) return numerics;
-    const Foam::dictionary& dict = fvSolution.subDict("flotsam");
+    const Foam::dictionary& dict = subGroup(fvSolution, "flotsam");
     std::vector<std::string> known;
     for (const auto& entry : controlsTable()) known.push_back(entry.keyword);
     checkKeywords(dict, known);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam/dictionaryChecks.H"
 
+#include "OStringStream.H"
 #include "error.H"
 
 #include <algorithm>
@@ -13,6 +14,15 @@ void failIn(const Foam::dictionary& dict, const std::string& message)
 {
     FatalIOErrorInFunction(dict) << message.c_str() << Foam::nl << Foam::exit(Foam::FatalIOError);
     throw std::logic_error(message); // never reached: exit() ends the run or throws
+}
+
+const Foam::dictionary& subGroup(const Foam::dictionary& dict, const std::string& keyword)
+{
+    if (!dict.found(keyword)) failIn(dict, text("Entry '", keyword, " { .. }' is missing."));
+    if (dict.isDict(keyword)) return dict.subDict(keyword);
+    Foam::OStringStream found;
+    found << dict.lookup(keyword);
+    failIn(dict, text("Entry '", keyword, "' is '", found.str(), "', but must be a group of entries in braces: ", keyword, " { .. }"));
 }
 
 std::string toString(const Foam::dimensionSet& dimensions)
