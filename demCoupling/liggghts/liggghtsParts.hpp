@@ -54,6 +54,7 @@ struct LiggghtsModel
     LiggghtsInstance instance;
     LAMMPS_NS::FixMultisphere* multisphere = nullptr;
     ContactTally* tally = nullptr;      ///< owned by LIGGGHTS' list of fixes
+    LAMMPS_NS::Fix* meshWalls = nullptr; ///< contact with all mesh walls; null without them
     LAMMPS_NS::Fix* meshForce = nullptr; ///< per-sphere force of all mesh walls [N]; null without mesh walls
     std::unique_ptr<NearSpheres> near;
     std::vector<WallHandle> walls;

@@ -247,9 +247,9 @@ void addWalls(LiggghtsModel& model, const DemSetup& setup)
         meshes += " mesh" + std::to_string(g);
     }
     // LIGGGHTS allows one wall fix of mesh type; it may hold many meshes
-    model.instance.addFix(words("meshes all wall/gran model hooke/stiffness tangential history mesh n_meshes "
-                                + std::to_string(model.meshes.size()) + " meshes" + meshes + " store_force yes "
-                                + contactModelOptions()));
+    model.meshWalls = model.instance.addFix(words("meshes all wall/gran model hooke/stiffness tangential history mesh n_meshes "
+                                                  + std::to_string(model.meshes.size()) + " meshes" + meshes + " store_force yes "
+                                                  + contactModelOptions()));
     model.meshForce = model.instance.findFix("force_meshes");
     for (size_t g = 0; g < model.meshes.size(); ++g)
     {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/liggghts/reach.hpp"
 
+#include <algorithm>
+
 namespace flotsam
 {
 
@@ -19,7 +21,16 @@ bool meets(const SurfaceSphere& s, const Box& box)
     return outside.squaredNorm() <= s.radius * s.radius;
 }
 
-struct TriangleBox { Vec3 lower, upper; };
+TriangleBoxes::Box boxOf(const TriSurface& surface, const std::array<int, 3>& triangle)
+{
+    TriangleBoxes::Box box {Vec3::Constant(1e300), Vec3::Constant(-1e300)};
+    for (const int corner : triangle)
+    {
+        const Vec3& point = surface.points[static_cast<size_t>(corner)];
+        box = {box.lower.cwiseMin(point), box.upper.cwiseMax(point)};
+    }
+    return box;
+}
 
 /// Upper bound of the angle [rad] a tumbling body turns through. The spin cannot exceed what its energy allows about
 /// the axis of least inertia, and it changes no faster than I dw/dt = M - w x L.
@@ -36,11 +47,65 @@ double largestTurn(const BodyState& state, const Load& load, double leastInertia
 
 } // namespace
 
+TriangleBoxes::TriangleBoxes(const TriSurface& surface)
+{
+    for (const std::array<int, 3>& t : surface.triangles)
+        boxes_.push_back(boxOf(surface, t));
+    tree_.reserve(2 * boxes_.size() + 1);
+    tree_.push_back({{}, 0, static_cast<int>(boxes_.size()), -1});
+    grow(0);
+}
+
+void TriangleBoxes::grow(size_t branch)
+{
+    constexpr int leafSize = 8;
+    const int first = tree_[branch].first, last = tree_[branch].last, middle = (first + last) / 2;
+    Box all {Vec3::Constant(1e300), Vec3::Constant(-1e300)};
+    for (auto box = boxes_.begin() + first; box != boxes_.begin() + last; ++box)
+        all = {all.lower.cwiseMin(box->lower), all.upper.cwiseMax(box->upper)};
+    tree_[branch].box = all;
+    if (last - first <= leafSize)
+        return;
+    int axis = 0;
+    (all.upper - all.lower).maxCoeff(&axis);
+    std::nth_element(boxes_.begin() + first, boxes_.begin() + middle, boxes_.begin() + last,
+                     [axis](const Box& a, const Box& b) { return a.lower[axis] + a.upper[axis] < b.lower[axis] + b.upper[axis]; });
+    const size_t child = tree_.size();
+    tree_[branch].child = static_cast<int>(child);
+    tree_.push_back({{}, first, middle, -1});
+    tree_.push_back({{}, middle, last, -1});
+    grow(child);
+    grow(child + 1);
+}
+
+bool TriangleBoxes::any(const Box& near, const std::function<bool(const Box&)>& test) const
+{
+    const auto isNear = [&](const Box& box) { return boxesMeet(near.lower, near.upper, box.lower, box.upper); };
+    std::vector<int> open {0};
+    while (!open.empty())
+    {
+        const Branch& branch = tree_[static_cast<size_t>(open.back())];
+        open.pop_back();
+        if (!isNear(branch.box))
+            continue;
+        if (branch.child >= 0)
+            open.insert(open.end(), {branch.child, branch.child + 1});
+        else if (std::any_of(boxes_.begin() + branch.first, boxes_.begin() + branch.last, [&](const Box& box) { return isNear(box) && test(box); }))
+            return true;
+    }
+    return false;
+}
+
 ReachCheck::ReachCheck(const std::vector<BodyDefinition>& bodies, const std::vector<WallDefinition>& walls, size_t firstMover)
     : bodies_(bodies), walls_(walls), firstMover_(firstMover), moving_(bodies.size())
 {
     for (size_t b = 0; b < bodies.size(); ++b)
         moving_[b].spheres.resize(bodies[b].spheres.size());
+    for (WallDefinition& wall : walls_)
+    {
+        triangles_.emplace_back(wall.surface);
+        wall.surface = {};
+    }
 }
 
 void ReachCheck::move(size_t body, const BodyState& state, const Load& load, bool isHeld, double duration)
@@ -85,8 +150,9 @@ bool ReachCheck::canTouch(const Moving& a, const Moving& b) const
     return false;
 }
 
-bool ReachCheck::canTouch(const Moving& a, const WallDefinition& wall) const
+bool ReachCheck::canTouch(const Moving& a, size_t index) const
 {
+    const WallDefinition& wall = walls_[index];
     if (wall.kind == WallDefinition::Kind::Plane)
     {
         const Vec3 normal = wall.normal.normalized();
@@ -95,21 +161,8 @@ bool ReachCheck::canTouch(const Moving& a, const WallDefinition& wall) const
                 return true;
         return false;
     }
-    for (const std::array<int, 3>& t : wall.surface.triangles)
-    {
-        TriangleBox box {Vec3::Constant(1e300), Vec3::Constant(-1e300)};
-        for (const int corner : t)
-        {
-            box.lower = box.lower.cwiseMin(wall.surface.points[static_cast<size_t>(corner)]);
-            box.upper = box.upper.cwiseMax(wall.surface.points[static_cast<size_t>(corner)]);
-        }
-        if (!boxesMeet(a.lower, a.upper, box.lower, box.upper))
-            continue;
-        for (const SurfaceSphere& s : a.spheres)
-            if (meets(s, box))
-                return true;
-    }
-    return false;
+    return triangles_[index].any({a.lower, a.upper}, [&](const TriangleBoxes::Box& box)
+        { return std::any_of(a.spheres.begin(), a.spheres.end(), [&](const SurfaceSphere& s) { return meets(s, box); }); });
 }
 
 bool ReachCheck::isFree(const std::vector<BodyState>& states, const std::vector<Load>& loads,
@@ -128,8 +181,8 @@ bool ReachCheck::isFree(const std::vector<BodyState>& states, const std::vector<
                 return false;
         if (isHeld[b])
             continue;
-        for (const WallDefinition& wall : walls_)
-            if (canTouch(moving_[b], wall))
+        for (size_t w = 0; w < walls_.size(); ++w)
+            if (canTouch(moving_[b], w))
                 return false;
     }
     return true;

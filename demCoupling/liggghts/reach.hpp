@@ -4,8 +4,27 @@
 
 #include "demCoupling/core/rigidBody.hpp"
 
+#include <functional>
+
 namespace flotsam
 {
+
+/// Boxes of a surface's triangles in a tree: a terrain has many, of which few are near a body.
+class TriangleBoxes
+{
+public:
+    struct Box { Vec3 lower, upper; };
+    explicit TriangleBoxes(const TriSurface& surface);
+    /// Whether `test` holds for any triangle whose box meets the given one.
+    bool any(const Box& near, const std::function<bool(const Box&)>& test) const;
+
+private:
+    struct Branch { Box box; int first = 0, last = 0, child = -1; };   ///< child -1: a leaf with the boxes first to last - 1; else child, child + 1
+    void grow(size_t branch);
+
+    std::vector<Box> boxes_;
+    std::vector<Branch> tree_;
+};
 
 class ReachCheck
 {
@@ -26,10 +45,11 @@ private:
     };
     void move(size_t body, const BodyState& state, const Load& load, bool isHeld, double duration);
     bool canTouch(const Moving& a, const Moving& b) const;
-    bool canTouch(const Moving& a, const WallDefinition& wall) const;
+    bool canTouch(const Moving& a, size_t wall) const;
 
     std::vector<BodyDefinition> bodies_;
-    std::vector<WallDefinition> walls_;
+    std::vector<WallDefinition> walls_;     ///< without the triangles
+    std::vector<TriangleBoxes> triangles_;  ///< of each wall
     size_t firstMover_;
     std::vector<Moving> moving_;
 };
