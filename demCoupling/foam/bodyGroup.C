@@ -201,7 +201,7 @@ void placeRandomly(BodyGroup& group, const SceneFrame& frame, Obstacles& obstacl
         bool isPlaced = false;
         for (int k = 0; k < random.tries && !isPlaced; ++k)
             isPlaced = drawPose(group, random, base, frame, numbers, body.pose)
-                && !conflictOf(group, body, obstacles, random.minGap);
+                && isPlaceFree({body.name, group.sampled, body.pose}, obstacles, random.minGap, !body.entersAtRelease);
         if (!isPlaced)
             failIn(dict, text("Only ", i, " of ", random.count, " bodies '", group.prototype.name, "' found a place within ", random.tries,
                 " tries.\n    Enlarge 'box', lower 'count' or 'minGap', or allow more 'tries'."));

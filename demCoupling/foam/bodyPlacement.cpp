@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/foam/bodyPlacement.hpp"
+#include "geometry/triSurface.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,17 +18,18 @@ bool boxesApart(const std::array<Vec3, 2>& a, const std::array<Vec3, 2>& b, doub
     return false;
 }
 
-/// Smallest distance of a's points in b, among those near b.
+/// Smallest distance of a's points in b, among those near b: its box in its own frame lies close around it, however it is turned.
 double oneSidedGap(const ShapeAtPose& a, const ShapeAtPose& b, double farther)
 {
-    const auto box = b.spaceBounds();
+    const Shape& other = b.shape->shape();
+    const auto box = other.bounds();
     const Eigen::Matrix3d rotation = a.pose.orientation.toRotationMatrix();
     double smallest = farther;
     for (const Vec3& p : a.shape->points())
     {
-        const Vec3 x = rotation*p + a.pose.position;
+        const Vec3 x = b.inFrame(rotation*p + a.pose.position);
         const Vec3 outside = (box[0] - x).cwiseMax(x - box[1]).cwiseMax(0.0);
-        if (outside.norm() < std::max(smallest, 1e-300)) smallest = std::min(smallest, b.distance(x));
+        if (outside.norm() < std::max(smallest, 1e-300)) smallest = std::min(smallest, other.distance(x));
     }
     return smallest;
 }
@@ -80,6 +82,53 @@ double shortestSide(const ShapeAtPose& body)
     return (upper - lower).minCoeff();
 }
 
+/// isFirstEnough: whichever is found first.
+std::optional<Conflict> worstConflict(const ShapeAtPose& body, const Obstacles& obstacles, double minGap, bool withBodies, bool isFirstEnough)
+{
+    std::optional<Conflict> worst;
+    const auto keepOutside = [&](int d, double sideGap)
+    {
+        keepWorse(worst, "the outside of the mesh", depthBehind(body, obstacles.box[0], Vec3::Unit(d)), sideGap);
+        keepWorse(worst, "the outside of the mesh", depthBehind(body, obstacles.box[1], -Vec3::Unit(d)), sideGap);
+    };
+    for (int d = 0; d < 3; ++d) // a body that is not in the mesh at all is behind its walls as well: the first says more
+    {
+        const double x = body.pose.position[d];
+        if (obstacles.checkBox[d] && (x < obstacles.box[0][d] || x > obstacles.box[1][d])) keepOutside(d, 0);
+    }
+    if (worst) return worst;
+    const auto isEnough = [&] { return isFirstEnough && worst; };
+    for (const auto& plane : obstacles.planes) keepWorse(worst, "wall " + plane.name, depthBehind(body, plane.point, plane.normal), minGap);
+    for (const auto& wall : obstacles.facets)
+        if (!isEnough()) keepWorse(worst, "wall " + wall.name, depthInFacets(body, wall.surface, 0.25*shortestSide(body)), minGap);
+    const auto keepClearOf = [&](const ShapeAtPose& other)
+    {
+        if (!isEnough()) keepWorse(worst, other.name, -gap(body, other, std::max(minGap, 0.0) + 1e-6), minGap);
+    };
+    for (const auto& structure : obstacles.shapes) keepClearOf(structure);
+    for (const auto& other : obstacles.bodies)
+        if (withBodies) keepClearOf(other);
+    for (int d = 0; d < 3; ++d)
+    {
+        // the sides of the box may be open boundaries: a body must be inside, but owes them no gap
+        if (obstacles.checkBox[d]) keepOutside(d, std::min(minGap, 0.0));
+    }
+    return worst;
+}
+
+/// Edges included, corners not.
+void addPointsOfStrip(std::vector<Vec3>& points, const Strip& strip, double spacing)
+{
+    const int n = strip.rows(spacing);
+    for (int i = 0; i < n; ++i)
+    {
+        const auto [begin, end] = strip.row(static_cast<double>(i)/n);
+        const int m = std::max(1, static_cast<int>(std::ceil((end - begin).norm()/spacing)));
+        for (int j = 0; j <= m; ++j)
+            if (i > 0 || (j > 0 && j < m)) points.push_back(begin + (end - begin)*(static_cast<double>(j)/m));
+    }
+}
+
 } // namespace
 
 std::vector<Vec3> pointsOnSurface(const TriSurface& surface, double spacing)
@@ -88,6 +137,11 @@ std::vector<Vec3> pointsOnSurface(const TriSurface& surface, double spacing)
     for (const auto& t : surface.triangles)
     {
         const Vec3 &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
+        if (const Strip strip(a, b, c); strip.isNarrow())
+        {
+            addPointsOfStrip(points, strip, spacing);
+            continue;
+        }
         const double longest = std::max({(b - a).norm(), (c - a).norm(), (c - b).norm()});
         const int n = std::max(1, static_cast<int>(std::ceil(longest/spacing)));
         for (int i = 0; i <= n; ++i)
@@ -114,9 +168,11 @@ std::array<Vec3, 2> ShapeAtPose::spaceBounds() const
     return {Vec3(centre - half), Vec3(centre + half)};
 }
 
+Vec3 ShapeAtPose::inFrame(const Vec3& x) const { return pose.orientation.conjugate()*(x - pose.position); }
+
 double ShapeAtPose::distance(const Vec3& x) const
 {
-    return shape->shape().distance(pose.orientation.conjugate()*(x - pose.position));
+    return shape->shape().distance(inFrame(x));
 }
 
 double gap(const ShapeAtPose& a, const ShapeAtPose& b, double farther)
@@ -129,31 +185,12 @@ double gap(const ShapeAtPose& a, const ShapeAtPose& b, double farther)
 
 std::optional<Conflict> findConflict(const ShapeAtPose& body, const Obstacles& obstacles, double minGap, bool withBodies)
 {
-    std::optional<Conflict> worst;
-    const auto keepOutside = [&](int d, double sideGap)
-    {
-        keepWorse(worst, "the outside of the mesh", depthBehind(body, obstacles.box[0], Vec3::Unit(d)), sideGap);
-        keepWorse(worst, "the outside of the mesh", depthBehind(body, obstacles.box[1], -Vec3::Unit(d)), sideGap);
-    };
-    for (int d = 0; d < 3; ++d) // a body that is not in the mesh at all is behind its walls as well: the first says more
-    {
-        const double x = body.pose.position[d];
-        if (obstacles.checkBox[d] && (x < obstacles.box[0][d] || x > obstacles.box[1][d])) keepOutside(d, 0);
-    }
-    if (worst) return worst;
-    for (const auto& plane : obstacles.planes) keepWorse(worst, "wall " + plane.name, depthBehind(body, plane.point, plane.normal), minGap);
-    for (const auto& wall : obstacles.facets)
-        keepWorse(worst, "wall " + wall.name, depthInFacets(body, wall.surface, 0.25*shortestSide(body)), minGap);
-    const auto keepClearOf = [&](const ShapeAtPose& other) { keepWorse(worst, other.name, -gap(body, other, std::max(minGap, 0.0) + 1e-6), minGap); };
-    for (const auto& structure : obstacles.shapes) keepClearOf(structure);
-    for (const auto& other : obstacles.bodies)
-        if (withBodies) keepClearOf(other);
-    for (int d = 0; d < 3; ++d)
-    {
-        // the sides of the box may be open boundaries: a body must be inside, but owes them no gap
-        if (obstacles.checkBox[d]) keepOutside(d, std::min(minGap, 0.0));
-    }
-    return worst;
+    return worstConflict(body, obstacles, minGap, withBodies, false);
+}
+
+bool isPlaceFree(const ShapeAtPose& body, const Obstacles& obstacles, double minGap, bool withBodies)
+{
+    return !worstConflict(body, obstacles, minGap, withBodies, true);
 }
 
 Eigen::Quaterniond RandomNumbers::rotation()

@@ -36,6 +36,7 @@ struct ShapeAtPose
     Pose pose;
 
     std::array<Vec3, 2> spaceBounds() const;
+    Vec3 inFrame(const Vec3& x) const;      ///< a point in space -> in the shape's frame
     double distance(const Vec3& x) const;   ///< of a point in space [m]
 };
 
@@ -58,6 +59,9 @@ struct Obstacles
 /// The deepest overlap among what is nearer than `minGap` (negative: overlaps up to -minGap are allowed); nothing when the place is free.
 struct Conflict { std::string with; double overlap; /* [m], negative: a gap too small */ };
 std::optional<Conflict> findConflict(const ShapeAtPose& body, const Obstacles& obstacles, double minGap, bool withBodies = true);
+
+/// Whether findConflict() would find none: ends at the first one, which is what a random placement needs of its many tries.
+bool isPlaceFree(const ShapeAtPose& body, const Obstacles& obstacles, double minGap, bool withBodies = true);
 
 /// Reproducible numbers, the same with every compiler and on every rank.
 class RandomNumbers

@@ -93,10 +93,12 @@ public:
 
     int add(const Vec3& x, std::vector<Vec3>& points)
     {
-        const Vec3 cell = (x / (4 * tolerance_)).array().floor();
+        const Vec3 scaled = x / (4 * tolerance_), cell = scaled.array().floor();
         for (int k = 0; k < 27; ++k)
         {
-            const auto found = cells_.find(key(cell + Vec3(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1)));
+            const Vec3 step(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+            if (!isNear(scaled - cell, step)) continue;
+            const auto found = cells_.find(key(cell + step));
             if (found == cells_.end()) continue;
             for (int i : found->second)
                 if ((points[i] - x).norm() <= tolerance_) return i;
@@ -108,6 +110,15 @@ public:
     }
 
 private:
+    /// Whether the neighbouring cell can hold a point within the tolerance, a quarter of a cell, of one at `place` in its own cell: a look is what a point costs.
+    static bool isNear(const Vec3& place, const Vec3& step)
+    {
+        constexpr double reach = 0.26; // with round-off
+        for (int d = 0; d < 3; ++d)
+            if ((step[d] < 0 && place[d] > reach) || (step[d] > 0 && place[d] < 1 - reach)) return false;
+        return true;
+    }
+
     static std::uint64_t key(const Vec3& cell)
     {
         std::uint64_t k = 0; // collisions only cost time: the distance decides

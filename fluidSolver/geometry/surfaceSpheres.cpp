@@ -123,14 +123,28 @@ bool pushInside(const Shape& shape, double radius, Vec3& x)
     return false;
 }
 
+/// Whether the ball of radius t that touches the surface at the point lies inside the shape.
+bool fits(const Shape& shape, const SurfacePoint& p, double t) { return shape.distance(p.x - t * p.normal) <= -t * (1 - 1e-9); }
+
 /// Radius of the largest ball inside the shape that touches its surface at the point, up to `radius`.
 double ballRadius(const Shape& shape, const SurfacePoint& p, double radius)
 {
-    auto fits = [&](double t) { return shape.distance(p.x - t * p.normal) <= -t * (1 - 1e-9); };
-    if (fits(radius)) return radius;
+    if (fits(shape, p, radius)) return radius;
     double low = 0, high = radius;
-    for (int i = 0; i < 40; ++i) (fits(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+    for (int i = 0; i < 40; ++i) (fits(shape, p, 0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
     return low;
+}
+
+/// Of all points. Most need a look at most: where the largest ball so far does not fit there is no larger one.
+double largestBallRadius(const Shape& shape, const std::vector<SurfacePoint>& points, double radius)
+{
+    double largest = 0;
+    for (const SurfacePoint& p : points)
+    {
+        if (largest == radius) break;
+        if (largest == 0 || fits(shape, p, largest)) largest = std::max(largest, ballRadius(shape, p, radius));
+    }
+    return largest;
 }
 
 struct Candidate
@@ -166,8 +180,7 @@ Spheres sampledSpheres(const Shape& shape, double radius, double spacing)
 {
     const double thinning = 0.6 * spacing;
     const std::vector<SurfacePoint> points = samplePoints(shape.surface(0.5 * spacing), 0.25 * spacing);
-    double thickest = 0;
-    for (const SurfacePoint& p : points) thickest = std::max(thickest, ballRadius(shape, p, radius));
+    const double thickest = largestBallRadius(shape, points, radius);
     Spheres spheres;
     for (const Candidate& c : candidates(shape, points, std::min(radius, thickest * (1 - 1e-6))))
     {

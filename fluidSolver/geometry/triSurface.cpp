@@ -99,6 +99,38 @@ TriSurface surfaceOfRevolution(const Vec3& origin, const Vec3& axis, const std::
     return s;
 }
 
+Strip::Strip(const Vec3& a, const Vec3& b, const Vec3& c) : corners_{a, b, c}
+{
+    const std::array<double, 3> lengths{(b - a).norm(), (c - b).norm(), (a - c).norm()};
+    const auto shortest = std::min_element(lengths.begin(), lengths.end());
+    std::rotate(corners_.begin(), corners_.begin() + (shortest - lengths.begin()), corners_.end());
+    longest_ = *std::max_element(lengths.begin(), lengths.end());
+    narrowness_ = *shortest / longest_;
+}
+
+int Strip::rows(double spacing) const { return std::max(1, static_cast<int>(std::ceil(longest_ / spacing))); }
+
+std::array<Vec3, 2> Strip::row(double share) const
+{
+    return {corners_[0] + share * (corners_[2] - corners_[0]), corners_[1] + share * (corners_[2] - corners_[1])};
+}
+
+namespace
+{
+
+void addPointsOfStrip(std::vector<SurfacePoint>& points, const Strip& strip, const Vec3& normal, double spacing)
+{
+    const int n = strip.rows(spacing);
+    for (int i = 0; i < n; ++i)
+    {
+        const auto [begin, end] = strip.row((i + 0.5) / n);
+        const int m = std::max(1, static_cast<int>(std::ceil((end - begin).norm() / spacing)));
+        for (int j = 0; j < m; ++j) points.push_back({begin + (j + 0.5) / m * (end - begin), normal});
+    }
+}
+
+} // namespace
+
 std::vector<SurfacePoint> samplePoints(const TriSurface& surface, double spacing)
 {
     std::vector<SurfacePoint> points;
@@ -106,6 +138,11 @@ std::vector<SurfacePoint> samplePoints(const TriSurface& surface, double spacing
     {
         const Vec3 &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
         const Vec3 normal = (b - a).cross(c - a).normalized();
+        if (const Strip strip(a, b, c); strip.isNarrow())
+        {
+            addPointsOfStrip(points, strip, normal, spacing);
+            continue;
+        }
         const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
         const int n = std::max(1, static_cast<int>(std::ceil(longest / spacing)));
         // centroids of the n*n parts of the triangle

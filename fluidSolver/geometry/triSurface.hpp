@@ -24,6 +24,21 @@ TriSurface surfaceOfRevolution(const Vec3& origin, const Vec3& axis, const std::
 struct SurfacePoint { Vec3 x, normal; };
 std::vector<SurfacePoint> samplePoints(const TriSurface& surface, double spacing);
 
+/// A triangle as rows parallel to its shortest edge. CAD programs write a pipe as strips of its length: as many points across these as along them
+/// would be millions.
+class Strip
+{
+public:
+    Strip(const Vec3& a, const Vec3& b, const Vec3& c);
+    bool isNarrow() const { return narrowness_ < 0.25; }
+    int rows(double spacing) const;                     ///< so many that neighbours are not further apart
+    std::array<Vec3, 2> row(double share) const;        ///< ends; share 0: the shortest edge, 1: the corner opposite of it
+
+private:
+    std::array<Vec3, 3> corners_;   ///< the shortest edge first
+    double longest_, narrowness_;   ///< longest edge [m], shortest over longest
+};
+
 /// A second unit vector normal to `axis`; with the third it makes a right-handed frame {axis, u, axis x u}.
 Vec3 anyNormalTo(const Vec3& axis);
 

@@ -258,6 +258,37 @@ TEST_CASE("gaps of placed shapes")
     CHECK(gap({"", box, {}}, {"", box, {Vec3(0, 0, 0.1), {1, 0, 0, 0}}}, 0) == within(0, 1e-17));
 }
 
+TEST_CASE("a place is free where nothing conflicts with it")
+{
+    const auto box = std::make_shared<SampledShape>(makeBox(Vec3::Zero(), Vec3(1, 0.1, 0.1)), 0.02);
+    Obstacles obstacles;
+    obstacles.box = {Vec3(-2, -2, -2), Vec3(2, 2, 2)};
+    obstacles.planes = {{"floor", Vec3(0, 0, -1), Vec3::UnitZ()}};
+    obstacles.bodies = {{"first", box, {}}, {"second", box, {Vec3(0, 0.5, 0), {1, 0, 0, 0}}}};
+    RandomNumbers numbers(1);
+    int nFree = 0, nTaken = 0;
+    for (int i = 0; i < 200; ++i)
+    {
+        const Vec3 place(2*numbers.uniform() - 1, 2*numbers.uniform() - 1, 2.4*numbers.uniform() - 1.2);
+        const ShapeAtPose body{"", box, {place, numbers.rotation()}};
+        const bool isFree = isPlaceFree(body, obstacles, 0.01);
+        CHECK(isFree == !findConflict(body, obstacles, 0.01));
+        ++(isFree ? nFree : nTaken);
+    }
+    CHECK(nFree > 20);
+    CHECK(nTaken > 20);
+}
+
+TEST_CASE("points of narrow triangles")
+{
+    TriSurface strip;
+    strip.points = {Vec3(0, 0, 0), Vec3(0, 0.01, 0), Vec3(1, 0, 0)};
+    strip.triangles = {{0, 1, 2}};
+    const std::vector<Vec3> points = pointsOnSurface(strip, 0.02);
+    CHECK(points.size() > 100);     // both long edges
+    CHECK(points.size() < 120);
+}
+
 TEST_CASE("structures that overlap, touch, or lie in others")
 {
     BodiesScene s;

@@ -196,6 +196,23 @@ TEST_CASE("STL: spheres touch from inside, cover the surface, and are the same a
     std::remove(file.c_str());
 }
 
+TEST_CASE("narrow triangles: as many points as their area needs, none farther apart than the spacing")
+{
+    const double length = 1, width = 0.01, spacing = 0.02;
+    TriSurface strip;
+    strip.points = {Vec3(0, 0, 0), Vec3(length, 0, 0), Vec3(0, width, 0)};
+    strip.triangles = {{0, 1, 2}};
+    const std::vector<SurfacePoint> points = samplePoints(strip, spacing);
+    CHECK(points.size() < 1.1 * length / spacing);
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) CHECK((points[i + 1].x - points[i].x).norm() < spacing * (1 + 1e-9));
+    for (const SurfacePoint& p : points)
+    {
+        CHECK(p.normal == Vec3::UnitZ());
+        CHECK(p.x[1] > 0);
+        CHECK(p.x[1] / width + p.x[0] / length < 1);
+    }
+}
+
 TEST_CASE("senseless radius or spacing")
 {
     CHECK_THROWS_AS(surfaceSpheres(*makeSphere(Vec3::Zero(), 1), 0, 1), std::runtime_error);
