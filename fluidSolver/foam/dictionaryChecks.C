@@ -21,7 +21,7 @@ const Foam::dictionary& subGroup(const Foam::dictionary& dict, const std::string
     if (!dict.found(keyword)) failIn(dict, text("Entry '", keyword, " { .. }' is missing."));
     if (dict.isDict(keyword)) return dict.subDict(keyword);
     Foam::OStringStream found;
-    found << dict.lookup(keyword);
+    for (const Foam::token& t : dict.lookup(keyword)) found << (found.str().empty() ? "" : " ") << t;
     failIn(dict, text("Entry '", keyword, "' is '", found.str(), "', but must be a group of entries in braces: ", keyword, " { .. }"));
 }
 

@@ -19,7 +19,7 @@ TEST_CASE("one message for every mistake")
     CHECK(has(s.message(bodies("shape { type cubiod; } density 1;" + at)), "Unknown shape type 'cubiod'"));
     CHECK(has(s.message(bodies("shape { type sphere; raidus 1; } density 1;" + at)), "Did you mean: radius"));
     CHECK(has(s.message("boddies {}"), "Did you mean: bodies"));
-    CHECK(has(s.message(bodies(bar + at + "orientation (0 0 1 30);")), "Entry 'orientation' is '4(0 0 1 30)', but must be a group of entries in braces: orientation { .. }"));
+    CHECK(has(s.message(bodies(bar + at + "orientation (0 0 1 30);")), "Entry 'orientation' is '( 0 0 1 30 )', but must be a group of entries in braces: orientation { .. }"));
     CHECK(has(s.message(bodies("shape sphere; density 1;" + at)), "Entry 'shape' is 'sphere', but must be a group"));
     CHECK(has(s.message(bodies("density 1;" + at)), "Entry 'shape { .. }' is missing"));
     CHECK(has(s.message("bodies 3;"), "Entry 'bodies' is '3', but must be a group"));
