@@ -34,8 +34,9 @@ TEST_CASE("walls and mirror planes stop bodies where nothing else is said")
     CHECK(walls({}) == floor);
     for (const std::string type : {"symmetryPlane", "symmetry"})
     {
-        CHECK(walls({{"system/blockMeshDict", "floor { type wall;", "floor { type " + type + ";"}}) == floor);
-        CHECK(walls({{"system/blockMeshDict", "outlet { type patch;", "outlet { type " + type + ";"}}) == both);
+        const std::string mirror = "outlet { type " + type + "; }";
+        CHECK(walls({{"system/blockMeshDict", "outlet { type patch;", "outlet { type " + type + ";"}, {"0/U", "outlet { type zeroGradient; }", mirror},
+            {"0/alpha.water", "outlet { type zeroGradient; }", mirror}, {"0/p_rgh", "outlet { type fixedValue; value uniform 7; }", mirror}}) == both);
     }
 }
 
