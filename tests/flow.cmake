@@ -50,6 +50,8 @@ flotsam_test(iterationCounts verification SOURCES verification/iterationCounts.c
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(narrowGaps verification SOURCES verification/narrowGaps.cpp
   LIBRARIES flotsam_equations flotsam_test_support)
+flotsam_test(boxPile verification SOURCES verification/boxPile.cpp
+  LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
 flotsam_test(allocations verification SOURCES verification/allocations.cpp
   LIBRARIES flotsam_coupling flotsam_test_support)
 target_link_options(test_allocations PRIVATE -Wl,--wrap=malloc)

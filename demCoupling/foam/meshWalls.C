@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/foam/meshWalls.H"
 
+#include "algebra/exchange.hpp"
+
 #include "SubField.H"
 #include "boundBox.H"
 
@@ -25,17 +27,6 @@ std::vector<double> localTriangles(const Foam::polyMesh& mesh, const Foam::polyP
             for (const Foam::label point : {f[0], f[k + 1], f[k]})
                 for (int d = 0; d < 3; ++d) corners.push_back(mesh.points()[point][d]);
     return corners;
-}
-
-std::vector<double> gatherAll(const std::vector<double>& mine, const Halo& halo)
-{
-    const int n = static_cast<int>(mine.size());
-    std::vector<int> counts(halo.size()), starts(halo.size() + 1, 0);
-    MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, halo.comm());
-    for (int r = 0; r < halo.size(); ++r) starts[r + 1] = starts[r] + counts[r];
-    std::vector<double> all(starts.back());
-    MPI_Allgatherv(mine.data(), n, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, halo.comm());
-    return all;
 }
 
 /// Equal points become one: ranks hold copies of the same numbers.
@@ -116,7 +107,7 @@ std::vector<WallDefinition> makeMeshWalls(const Foam::polyMesh& mesh, const Foam
     rest.name = patch.name();
     rest.material = material;
     rest.kind = WallDefinition::Kind::Surface;
-    rest.surface = stitched(gatherAll(localTriangles(mesh, patch), halo));
+    rest.surface = stitched(gatherAll(localTriangles(mesh, patch), halo.comm()));
     const auto bounds = meshBounds(mesh);
     const double tolerance = 1e-7*(bounds[1] - bounds[0]).norm();
     const std::vector<PlanarPart> parts = planarParts(rest.surface, tolerance, mostPlanes);

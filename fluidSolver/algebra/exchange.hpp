@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Set-up communication: lists of any length to any rank. Not for the time loop (Halo is).
+/// Communication of lists of any length, once a step at most (Halo is for more).
 #pragma once
 
 #include <mpi.h>
@@ -48,6 +48,20 @@ std::vector<std::vector<T>> exchangeLists(const std::vector<std::vector<T>>& out
     }
     MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
     return incoming;
+}
+
+/// Collective. The lists of all ranks, one after the other.
+inline std::vector<double> gatherAll(const std::vector<double>& mine, MPI_Comm comm)
+{
+    int size;
+    MPI_Comm_size(comm, &size);
+    const int n = static_cast<int>(mine.size());
+    std::vector<int> counts(size), starts(size + 1, 0);
+    MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
+    for (int r = 0; r < size; ++r) starts[r + 1] = starts[r] + counts[r];
+    std::vector<double> all(starts.back());
+    MPI_Allgatherv(mine.data(), n, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, comm);
+    return all;
 }
 
 } // namespace flotsam

@@ -10,7 +10,8 @@ namespace flotsam
 
 ScaledFlowSystem::ScaledFlowSystem(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, int patience)
 :   mesh_(mesh), graph_(graph), halo_(halo), B_(mesh.dim + 1), velocity_(graph, mesh.nOwned, mesh.dim), choice_(patience),
-    pressure_(mesh, graph, halo), heldPressure_(graph, mesh.nOwned), solids_(halo)
+    pressure_(mesh, graph, halo), heldPressure_(graph, mesh.nOwned), solids_(halo),
+    bodyCompliance_(halo, mesh.nOwned)
 {
     const std::size_t n = mesh.nOwned;
     scale_.resize(n*B_);
@@ -30,11 +31,12 @@ void ScaledFlowSystem::chooseVelocities(const FlowSystem& system)
 void ScaledFlowSystem::set(const FlowSystem& system)
 {
     system_ = &system;
+    solids_.set(system);
     if (system.isNewMatrix)
     {
         if (mesh_.dim == 2) setDiagonals<2>(); else setDiagonals<3>();
+        setBodyCompliance();
     }
-    solids_.set(system);
     q_.assign(system.solids.size()*system.nDof, 0.0);
     qRows_ = qWork_ = q_;
     if (system.isNewMatrix) updateHierarchies();
@@ -113,6 +115,15 @@ void ScaledFlowSystem::setDiagonals()
     }
 }
 
+void ScaledFlowSystem::setBodyCompliance()
+{
+    if (solids_.isEmpty()) return;
+    std::vector<float> pointwise(mesh_.nOwned);
+    for (int i = 0; i < mesh_.nOwned; ++i)
+        if (isFreePressure(*system_, i)) pointwise[i] = viscousPressure_[i] + float(std::pow(scale_[std::size_t(i)*B_ + B_ - 1], 2));
+    bodyCompliance_.set(*system_, solids_, pointwise);
+}
+
 /// Takes from the continuity rows of basins without a prescribed pressure what no velocity can balance: volume that surfaces sweep there, spread as the level is weighed,
 /// so that gas makes room for it. Returns that volume [m^dim/s], all basins.
 double ScaledFlowSystem::balanceContinuity(double* y)
@@ -180,6 +191,7 @@ void ScaledFlowSystem::solvePressure(const double* r)
     heldPressure_.correct(pressureRows_.data(), pressureLocal_.data());
     for (int i = 0; i < mesh_.nOwned; ++i)
         pressureLocal_[i] = isFreePressure(s, i) ? pressureLocal_[i] + pressureRows_[i]*viscousPressure_[i] : 0;
+    if (!solids_.isEmpty()) bodyCompliance_.correct(pressureLocal_.data());
     removeMeans(pressureLocal_);
     halo_.update(pressureLocal_.data(), 1);
 }

@@ -3,6 +3,7 @@
 /// flowLinearSolver.hpp) and both one after the other. Vectors: nOwned*(dim+1) fluid values, then (rank 0) the free solids' velocities.
 #pragma once
 
+#include "algebra/bodyCompliance.hpp"
 #include "algebra/flowOperator.hpp"
 #include "algebra/heldPressure.hpp"
 #include "algebra/pressureHierarchy.hpp"
@@ -52,6 +53,7 @@ public:
 
 private:
     template<int D> void setDiagonals();
+    void setBodyCompliance();
     void updateHierarchies();
     void updateViscousBlock();
     void solveVelocity(const double* r);
@@ -77,6 +79,7 @@ private:
     PressureHierarchy pressure_;
     HeldPressure heldPressure_;
     SolidUnknowns solids_;
+    BodyCompliance bodyCompliance_;
 
     double unbalancedVolume_ = 0;
     double level_ = 0;                      // mean of the prescribed pressures [Pa]

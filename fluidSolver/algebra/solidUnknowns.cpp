@@ -13,6 +13,7 @@ void SolidUnknowns::set(const FlowSystem& system)
     nDof_ = system.nDof;
     const int n = nDof_;
     free_.clear();
+    block_.clear();
     inverse_.clear();
     scale_.clear();
     for (std::size_t s = 0; s < system.solids.size(); ++s)
@@ -24,7 +25,7 @@ void SolidUnknowns::set(const FlowSystem& system)
         std::copy(solid.block.begin(), solid.block.end(), block);
         halo_.sum(block, n*n);
         for (int k = 0; k < n*n; ++k) block[k] += solid.inertia[k];
-        const Block m = Eigen::Map<Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>(block, n, n);
+        const Block& m = block_.emplace_back(Eigen::Map<Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>(block, n, n));
         inverse_.push_back(m.inverse());
         for (int k = 0; k < n; ++k) scale_.push_back(1/std::sqrt(std::abs(m(k, k))));
     }

@@ -23,6 +23,8 @@ public:
     int nEntries() const { return int(scale_.size()); }         ///< of all free solids
     int nLocalEntries() const { return halo_.rank() == 0 ? nEntries() : 0; }
     const std::vector<int>& free() const { return free_; }      ///< solids whose velocity is unknown
+    using Block = Eigen::Matrix<double, -1, -1, Eigen::ColMajor, 6, 6>;     ///< nDof*nDof, 6 at most: without memory from the heap
+    const Block& block(int f) const { return block_[f]; }       ///< own mass and wall block of the f-th free solid
     double scale(int f, int d) const { return scale_[f*nDof_ + d]; }
 
     void readVelocity(const double* entries, std::vector<double>& q);           ///< collective
@@ -41,8 +43,7 @@ private:
     const FlowSystem* system_ = nullptr;
     int nDof_ = 0;
     std::vector<int> free_;
-    using Block = Eigen::Matrix<double, -1, -1, Eigen::ColMajor, 6, 6>;  // nDof*nDof, 6 at most: without memory from the heap
-    std::vector<Block> inverse_;
+    std::vector<Block> block_, inverse_;
     std::vector<double> scale_; // free*nDof
     std::vector<double> values_; // work: free*nDof
 };

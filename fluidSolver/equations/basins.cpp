@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "equations/basins.hpp"
 
+#include "algebra/exchange.hpp"
+
 #include <algorithm>
 #include <numeric>
 
@@ -42,13 +44,8 @@ void Basins::number()
     std::vector<double> own;
     for (int i = 0; i < mesh_.nOwned; ++i)
         if (lowest_[i] == double(mesh_.globalNode[i])) own.push_back(lowest_[i]);
-    std::vector<int> counts(halo_.size()), starts(halo_.size(), 0);
-    const int mine = int(own.size());
-    MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, halo_.comm());
-    std::partial_sum(counts.begin(), counts.end() - 1, starts.begin() + 1);
-    count_ = starts.back() + counts.back();
-    std::vector<double> all(count_);
-    MPI_Allgatherv(own.data(), mine, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, halo_.comm());
+    const std::vector<double> all = gatherAll(own, halo_.comm());
+    count_ = int(all.size());
     for (int i = 0; i < mesh_.nNodes; ++i) // global numbers ascend with the ranks
         basin_[i] = lowest_[i] < 0 ? -1 : int(std::lower_bound(all.begin(), all.end(), lowest_[i]) - all.begin());
 }
