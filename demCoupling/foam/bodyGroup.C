@@ -173,11 +173,26 @@ Eigen::Quaterniond drawOrientation(const RandomPlacement& random, const Eigen::Q
     return numbers.rotation();
 }
 
+/// The draw that came nearest to fitting into the box.
+struct TightestFit
+{
+    double excess = 1e300, extent = 0; ///< what the body is longer than the box along `axis`, negative: shorter; how long it is there [m]
+    int axis = 0;
+};
+
 /// A pose whose body lies inside the box, centred anywhere it can be. False: the body, turned like this, is larger than the box.
-bool drawPose(const BodyGroup& group, const RandomPlacement& random, const Eigen::Quaterniond& base, const SceneFrame& frame, RandomNumbers& numbers, Pose& pose)
+bool drawPose(const BodyGroup& group, const RandomPlacement& random, const Eigen::Quaterniond& base, const SceneFrame& frame, RandomNumbers& numbers, Pose& pose, TightestFit& tightest)
 {
     pose = compose({Vec3::Zero(), drawOrientation(random, base, frame, numbers)}, group.prototype.pose);
     const auto box = ShapeAtPose{"", group.sampled, pose}.spaceBounds();
+    TightestFit fit{-1e300};
+    for (int d = 0; d < 3; ++d)
+    {
+        const double lower = random.box[0][d] - box[0][d], upper = random.box[1][d] - box[1][d];
+        const bool isFree = frame.isPlanar && d == frame.planeAxis;
+        if (!isFree && lower - upper > fit.excess) fit = {lower - upper, box[1][d] - box[0][d], d};
+    }
+    if (fit.excess < tightest.excess) tightest = fit;
     for (int d = 0; d < 3; ++d)
     {
         const double lower = random.box[0][d] - box[0][d], upper = random.box[1][d] - box[1][d];
@@ -187,6 +202,16 @@ bool drawPose(const BodyGroup& group, const RandomPlacement& random, const Eigen
         pose.position[d] += isFree ? frame.midPlane - 0.5*(box[0] + box[1])[d] : lower + u*(upper - lower);
     }
     return true;
+}
+
+[[noreturn]] void failToPlace(const BodyGroup& group, const RandomPlacement& random, int nPlaced, const TightestFit& tightest, const Foam::dictionary& dict)
+{
+    if (tightest.excess > 1e-12)
+        failIn(dict, text("Bodies '", group.prototype.name, "' do not fit into 'box', which must hold the whole of them: it is ", tightest.extent - tightest.excess,
+            " m long along ", "xyz"[tightest.axis], ", a body ", random.orientation == "fixed" ? "" : "in the best of all orientations that were tried ", tightest.extent,
+            " m.\n    Enlarge 'box'", random.orientation == "fixed" ? ", or turn the bodies ('orientation')." : ", or allow more 'tries'."));
+    failIn(dict, text("Only ", nPlaced, " of ", random.count, " bodies '", group.prototype.name, "' found a place within ", random.tries,
+        " tries.\n    Enlarge 'box', lower 'count' or 'minGap', or allow more 'tries'."));
 }
 
 void placeRandomly(BodyGroup& group, const SceneFrame& frame, Obstacles& obstacles)
@@ -199,12 +224,11 @@ void placeRandomly(BodyGroup& group, const SceneFrame& frame, Obstacles& obstacl
     {
         BodyDefinition body = member(group, frame, text(".", i), {}, *group.dict);
         bool isPlaced = false;
+        TightestFit tightest;
         for (int k = 0; k < random.tries && !isPlaced; ++k)
-            isPlaced = drawPose(group, random, base, frame, numbers, body.pose)
+            isPlaced = drawPose(group, random, base, frame, numbers, body.pose, tightest)
                 && isPlaceFree({body.name, group.sampled, body.pose}, obstacles, random.minGap, !body.entersAtRelease);
-        if (!isPlaced)
-            failIn(dict, text("Only ", i, " of ", random.count, " bodies '", group.prototype.name, "' found a place within ", random.tries,
-                " tries.\n    Enlarge 'box', lower 'count' or 'minGap', or allow more 'tries'."));
+        if (!isPlaced) failToPlace(group, random, i, tightest, dict);
         body.releaseTime = random.from + i*random.interval;
         join(obstacles, group, body);
         group.members.push_back(std::move(body));

@@ -112,5 +112,17 @@ rm -rf thin && cp -r good thin
 echo 'structures { gate { shape { type box; size (1e-6 0.01 0.1); } position (0.0512345 0 0.025); } }' >> thin/constant/bodies
 (cd thin && quietly flotsamFoam -dry-run && grep -q 'flow does not know of structures .* inside: gate\.' log.flotsamFoam) || fail "a structure between the nodes is not mentioned"
 
+# the tutorials' Allrun: says how it is used, runs nothing for options that it does not have
+allrun=tree/tutorials/bridgePier
+makeCase bridgePier $allrun
+cp "$tutorials/bridgePier/Allrun" $allrun && cp "$tutorials/runFunctions" tree/tutorials && mkdir -p tree/scripts && cp "$here/../../scripts/environment.sh" tree/scripts || exit
+(cd $allrun && ./Allrun -h) > allrun.log 2>&1 || fail "Allrun -h is an error"
+grep -q '^Allrun \[-n N\] \[-r RESOLUTION\]' allrun.log && grep -q '^  -r RESOLUTION  quick' allrun.log || fail "Allrun -h does not say how it is used"
+for wrong in two 0 -1 1.5; do
+    (cd $allrun && ./Allrun -n $wrong) > allrun.log 2>&1 && fail "Allrun -n $wrong is accepted"
+    grep -q -- "-n is '$wrong', but must be a whole number" allrun.log || fail "Allrun -n $wrong: no word"
+done
+[ ! -e $allrun/run ] || fail "Allrun runs in spite of a wrong option"
+
 echo "$failures of the mistakes were not refused as promised"
 [ $failures -eq 0 ]

@@ -44,6 +44,9 @@ TEST_CASE("one message for every mistake")
     CHECK(has(s.message(gate + moves + "spheres { radius 0.06; } } }" + bodies(bar + at)), "smallest extent is 0.1"));
     CHECK(has(s.message(gate + moves + "spheres { radius 0.0005; } } }" + bodies(bar + at)), "allowed: 50000"));
     CHECK(has(s.message(bodies(bar + "random { count 50; box ((0 0 0) (0.3 0.05 0.05)); tries 20; }")), "of 50 bodies 'bar' found a place within 20 tries"));
+    const std::string narrow = "random { count 5; box ((0.2 0 0) (1.2 0.03 0.1)); orientation ";
+    CHECK(has(s.message(bodies(bar + narrow + "fixed; }" + " orientation { axis (0 0 1); angleDeg 90; }")), "'box', which must hold the whole of them: it is 0.03 m long along y, a body 0.2 m."));
+    CHECK(has(s.message(bodies(bar + narrow + "random; tries 3; }")), "along y, a body in the best of all orientations that were tried 0."));
     CHECK(has(s.message(bodies(bar + "array { count (100000 100000 1); spacing (1 1 1); }")), "makes 1e+10 members: at most 1e+06"));
     CHECK(has(s.message(bodies("shape { type cylinder; end1 (1 1 1); end2 (1 1 1); radius 1; } density 1;")), "no length"));
     CHECK(s.message(bodies(bar + "position (0.5 0.01 0.2);")).empty()); // lies on the floor
