@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Test of tutorials/common/flotsam.py. Usage: postProcessing.py PROGRAM, PROGRAM writes a known body history."""
+"""Test of tutorials/common/flotsam.py and driftwood.py. Usage: postProcessing.py PROGRAM, PROGRAM writes a known body history."""
 
 import os
 import subprocess
@@ -10,6 +10,7 @@ import unittest
 import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tutorials", "common"))
+import driftwood  # noqa: E402
 import flotsam  # noqa: E402
 
 LENGTH, WIDTH, HEIGHT = 2.0, 0.5, 1.0
@@ -138,6 +139,12 @@ class BodyHistory(unittest.TestCase):
         np.testing.assert_allclose(h.run["dt"], 0.01)
         np.testing.assert_allclose(h.surface["time"], [0, 0.5, 1])
         np.testing.assert_allclose(h.surface["points"][8 + 1], [1.5, 0, 0])
+
+    def test_largest_mean_over_a_second(self):
+        time = np.linspace(0, 4, 401)
+        bump = np.where((time > 1.5) & (time <= 2), 6.0, 0.0)   # a heap that breaks up long before the end
+        self.assertLess(abs(driftwood.largestMean(time, bump) - 3.0), 0.05)
+        self.assertLess(abs(driftwood.largestMean(time[:50], bump[:50] + 2) - 2.0), 1e-12)   # shorter than a second: of all
 
 
 if __name__ == "__main__":

@@ -115,6 +115,9 @@ def results():
         run = dict(history=h, time=time, depth=depth, water=water, contact=contact)
         run["up"], run["down"] = driftwood.finalMean(time, depth.T, LAST)
         run["force"] = dict(water=h.mean("pier", "fluidForce", h.time[-1] - LAST)[0], logs=h.mean("pier", "contactForce", h.time[-1] - LAST)[0])
+        # chance breaks heaps up before the end: what logs and the water behind them do while most are held
+        run["heldForce"] = driftwood.largestMean(h.time, contact)
+        run["heldRise"] = driftwood.largestMean(time, depth[:, 0] - depth[:, 1])
         flowTime, inflow, outflow = driftwood.discharge(h)
         run["inflow"], run["outflow"] = (driftwood.finalMean(flowTime, q, LAST) for q in (inflow, outflow))
         run["momentum"], run["entering"] = _momentum(case, h, time)

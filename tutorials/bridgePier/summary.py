@@ -21,6 +21,7 @@ def writeSummary(runs, file):
             (f"outflow, {name}", float(1000 * run["outflow"]), "l/s", f"{1000 * setup['discharge']:g} l/s enter"),
             (f"force of the water on the pier, {name}", float(run["force"]["water"]), "N", ""),
             (f"force of the logs on the pier, {name}", float(run["force"]["logs"]), "N", ""),
+            (f"the same, largest mean over one second, {name}", float(run["heldForce"]), "N", ""),
             (f"both, {name}", float(sum(run["force"].values())), "N", f"{run['momentum']:.2f} N: momentum theorem"),
         ]
     text = f"""Means over the last {channel.LAST:g} s ({h.time[-1]:.1f} s). Resolution `{setup['resolution']}`, {1000 * setup['discharge']:g} l/s in a channel

@@ -105,6 +105,14 @@ def finalMean(time, series, seconds=1.0):
     return series[..., time > time[-1] - seconds].mean(-1)
 
 
+def largestMean(time, series, seconds=1.0):
+    """The largest mean of a series over so many seconds, whenever they are: of jams that may break up before the end."""
+    if time[-1] - time[0] <= seconds:
+        return series.mean()
+    starts = np.flatnonzero(time <= time[-1] - seconds + 1e-9)
+    return max(series[k:][time[k:] <= time[k] + seconds + 1e-9].mean() for k in starts)
+
+
 def smooth(time, values, span=0.1):
     """Means over intervals: contact forces are made of short impacts."""
     edges = np.arange(0, time[-1] + span, span)
