@@ -106,8 +106,11 @@ StepResult advance(CoupledStep& step, const TimeControls& time, double& dt, RunO
         output.countRejected(result.failure, dt);
         dt *= retryFactor;
         if (retry == maxRetries || dt < time.minDeltaT)
-            throw std::runtime_error(text("no step could be made from t = ", step.fluid().state().time, " s: ", result.failure, " down to a step of ", dt/retryFactor,
-                " s. The fastest fluid there: ", step.fluid().describeFastest(), gapAdvice(step)));
+        {
+            const std::string overlap = output.overlapAdvice(step.coupling());
+            throw std::runtime_error(text("no step could be made from t = ", step.fluid().state().time, " s: ", result.failure, " down to a step of ", dt/retryFactor, " s. ",
+                overlap.empty() ? text("The fastest fluid there: ", step.fluid().describeFastest(), gapAdvice(step)) : "Before it, " + overlap));
+        }
     }
 }
 

@@ -103,7 +103,7 @@ void BodyCoupling::guarded(const std::function<void()>& work) const
 void BodyCoupling::shareResults()
 {
     const int n = nBodies(), walls = nWalls();
-    std::vector<double> buffer(std::size_t(n)*perBody + perWall*walls + 1);
+    std::vector<double> buffer(std::size_t(n)*perBody + perWall*walls + 4);
     if (rank_ == 0)
     {
         double* at = buffer.data();
@@ -120,6 +120,7 @@ void BodyCoupling::shareResults()
             put(at, touch_.wallLoads[w].moment);
             *at++ = touch_.wallCounts[w];
         }
+        put(at, Vec3(touch_.deepestBody, touch_.deepestOther, touch_.pressing));
         *at = touch_.largestOverlap;
     }
     MPI_Bcast(buffer.data(), int(buffer.size()), MPI_DOUBLE, 0, comm_);
@@ -137,8 +138,24 @@ void BodyCoupling::shareResults()
         get(at, touch_.wallLoads[w].moment);
         touch_.wallCounts[w] = int(*at++);
     }
+    Vec3 deepest;
+    get(at, deepest);
+    touch_.deepestBody = int(deepest[0]);
+    touch_.deepestOther = int(deepest[1]);
+    touch_.pressing = int(deepest[2]);
     touch_.largestOverlap = *at;
 }
+
+std::string BodyCoupling::deepestPair() const
+{
+    if (touch_.deepestBody < 0) return "";
+    const int other = touch_.deepestOther, wall = -1 - other;
+    const int mover = wall - int(setup_.walls.size());
+    const std::string name = other >= 0 ? "body " + setup_.bodies[other].name : mover >= 0 ? "structure " + setup_.movers[mover].name : setup_.walls[wall].name;
+    return "body " + setup_.bodies[touch_.deepestBody].name + " and " + name;
+}
+
+std::string BodyCoupling::pressingMover() const { return touch_.pressing < 0 ? "" : setup_.movers[touch_.pressing].name; }
 
 void BodyCoupling::runEngine(double duration, const std::vector<Load>& loads)
 {
@@ -153,11 +170,27 @@ void BodyCoupling::runEngine(double duration, const std::vector<Load>& loads)
         std::fill(touch_.counts.begin(), touch_.counts.end(), 0);
         std::fill(touch_.wallCounts.begin(), touch_.wallCounts.end(), 0);
         touch_.largestOverlap = 0;
-        for (const Contact& c : engine_->contacts())
+        touch_.deepestBody = touch_.pressing = -1;
+        const std::vector<Contact> contacts = engine_->contacts();
+        double force = 0; // of the deepest, then of the movers
+        for (const Contact& c : contacts)
         {
             ++touch_.counts[c.body];
             ++(c.other >= 0 ? touch_.counts[c.other] : touch_.wallCounts[-1 - c.other]);
-            touch_.largestOverlap = std::max(touch_.largestOverlap, c.overlap);
+            if (c.overlap > touch_.largestOverlap)
+            {
+                touch_.largestOverlap = c.overlap;
+                touch_.deepestBody = c.body;
+                touch_.deepestOther = c.other;
+                force = 0.5*c.force.norm();
+            }
+        }
+        for (const Contact& c : contacts)
+        {
+            const int mover = -1 - c.other - int(setup_.walls.size());
+            if (mover < 0 || touch_.counts[c.body] < 2 || !(c.force.norm() > force)) continue; // alone it pushes its body on
+            force = c.force.norm();
+            touch_.pressing = mover;
         }
         if (!engine_->hasContact()) newContact_.assign(newContact_.size(), Load()); // round-off of a free flight
     });

@@ -83,6 +83,10 @@ public:
     int repeats() const { return iteration_.repeats(); } ///< further solves needed in this step
     double mismatch() const { return iteration_.mismatch(); } ///< of the accepted contact, as CouplingControls::tolerance
     double largestOverlap() const { return touch_.largestOverlap; } ///< of DEM surfaces at the end of the last run [m]
+    /// Names of the pair that overlaps so, empty after a restart; and of a structure that moves and presses half as hard at least on a body that touches
+    /// something else, too, "" without: nothing stops it, it clamps the body.
+    std::string deepestPair() const;
+    std::string pressingMover() const;
     double demTimeStep() const { return demTimeStep_; }
 
     /// Everything that continues the run exactly, and back. Collective; the same on every rank.
@@ -114,6 +118,7 @@ private:
         std::vector<Load> wallLoads;
         std::vector<int> counts, wallCounts;
         double largestOverlap = 0;
+        int deepestBody = -1, deepestOther = 0, pressing = -1; // as in Contact; a mover. Not stored: they only serve messages
     } touch_, touchAtStart_;
     std::vector<char> isHeld_, isJustReleased_;
     std::vector<Presence> presence_;

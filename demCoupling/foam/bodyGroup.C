@@ -354,7 +354,7 @@ void checkMembers(const BodyGroup& group, Obstacles& obstacles)
     {
         if (const auto conflict = conflictOf(group, body, obstacles, -tolerance))
             failIn(*group.dict, text("Body ", body.name, " reaches ", 1000*conflict->overlap, " mm into ", conflict->with,
-                " at the start.\n    Its centre is at (", body.pose.position.transpose(), "). Move it, or let 'random' find places."));
+                " at the start.\n    Its centre is at (", body.pose.position[0], ' ', body.pose.position[1], ' ', body.pose.position[2], "). Move it, or let 'random' find places."));
         join(obstacles, group, body);
     }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/foam/runOutput.H"
 
+#include "foam/dictionaryChecks.H"
+
 #include "OSspecific.H"
 
 #include <algorithm>
@@ -273,6 +275,7 @@ void RunOutput::record(const CoupledStep& step, const StepResult& result, const 
     Foam::Info<< text.c_str() << Foam::flush;
     reportComings(records);
     reportSqueezed(step);
+    reportOverlap(step);
     for (const std::string& waiting : result.waiting) Foam::Info<< waiting.c_str() << Foam::endl;
 }
 
@@ -286,6 +289,27 @@ void RunOutput::reportSqueezed(const CoupledStep& step)
     if (where.empty()) return;
     Foam::Info<< "t = " << runTime_.value() << " s: structure " << where.c_str() << " changes the volume of fluid that nothing lets in or out. Gas makes room, and where"
         " there is none liquid appears elsewhere in the mesh. Was a way out meant? Leave a gap of an element, or an open patch" << Foam::endl;
+}
+
+std::string RunOutput::overlapAdvice(const BodyCoupling* bodies) const
+{
+    if (!bodies || bodies->largestOverlap() <= RunLog::deepOverlap*thinnestBody_ || bodies->deepestPair().empty()) return "";
+    const std::string mover = bodies->pressingMover().empty() ? clampedBy_ : bodies->pressingMover();
+    return text("the contact surfaces of ", bodies->deepestPair(), " overlap by ", bodies->largestOverlap(), " m, ", std::round(100*bodies->largestOverlap()/thinnestBody_),
+        " % of the thinnest body. ", mover.empty() ? "Contact is too soft: give constant/bodies more `stiffness`"
+        : "Structure " + mover + " moves as prescribed whatever is in its way, and presses them together: have it end before, by the run's endTime or a motion that"
+            " leaves room, or take out of its way what it clamps");
+}
+
+/// Said once.
+void RunOutput::reportOverlap(const CoupledStep& step)
+{
+    const std::string advice = overlapAdvice(step.coupling());
+    if (advice.empty()) return;
+    if (!step.coupling()->pressingMover().empty()) clampedBy_ = step.coupling()->pressingMover(); // forces between bodies this deep in each other say little
+    if (isOverlapReported_) return;
+    isOverlapReported_ = true;
+    Foam::Info<< "Warning: t = " << runTime_.value() << " s: " << advice.c_str() << Foam::endl;
 }
 
 void RunOutput::reportComings(const std::vector<BodyRecord>& records)

@@ -16,7 +16,6 @@ namespace
 
 constexpr int linesPerHeading = 25;
 constexpr double negligibleVolume = 1e-9; // of the liquid
-constexpr double deepOverlap = 0.05;      // of the thinnest body
 constexpr double paceMemory = 0.05; ///< weight of a new step in the smoothed pace: about the last 20 steps
 
 __attribute__((format(printf, 1, 2))) std::string format(const char* pattern, ...)
@@ -247,7 +246,7 @@ std::string RunLog::summary(const RunSummary& s)
     }
     if (s.bodiesAwaited > 0) text += format("\n  %d of %d bodies have not come in\n", s.bodiesAwaited, s.bodies);
     if (s.bodiesLeft > 0) text += format("\n  %d of %d bodies have left the mesh\n", s.bodiesLeft, s.bodies);
-    if (s.largestOverlap > deepOverlap * s.thinnestBody)
+    if (s.largestOverlap > RunLog::deepOverlap * s.thinnestBody)
     {
         text += format("\n  contact is too soft: contact surfaces overlapped by up to %.2g m, %.0f %% of the thinnest body. Give constant/bodies more `stiffness`\n",
             s.largestOverlap, 100 * s.largestOverlap / s.thinnestBody);

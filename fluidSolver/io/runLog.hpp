@@ -128,6 +128,8 @@ struct RunSummary
 class RunLog
 {
 public:
+    static constexpr double deepOverlap = 0.05; ///< of the thinnest body: such overlaps of contact surfaces are told
+
     /// `timers` must outlive the log. `endTime` [s] for the time left.
     RunLog(const PhaseTimers& timers, double startTime, double endTime);
 

@@ -112,6 +112,19 @@ rm -rf thin && cp -r good thin
 echo 'structures { gate { shape { type box; size (1e-6 0.01 0.1); } position (0.0512345 0 0.025); } }' >> thin/constant/bodies
 (cd thin && quietly flotsamFoam -dry-run && grep -q 'flow does not know of structures .* inside: gate\.' log.flotsamFoam) || fail "a structure between the nodes is not mentioned"
 
+# a gate that comes down on a bar on the bed: said when it happens, and the run that it ends names the gate
+makeFloatingBar clamped
+sed -i -e 's/590/1200/' -e 's/(0 0.001 0.025)/(0 -0.0895 0.025)/' -e '/orientation/d' clamped/constant/bodies
+echo 'structures { gate { shape { type box; size (0.03 0.08 0.05); } position (0 -0.0385 0.025); motion { type linear; velocity (0 -0.1 0); } } }' >> clamped/constant/bodies
+setEntry clamped/system/controlDict endTime 0.05
+rm -rf clamped2 && cp -r clamped clamped2
+(cd clamped2 && quietly decomposePar && mpirun -np 2 flotsamFoam -parallel) > clamped.log 2>&1 || fail "a gate that clamps a bar, on two processes"
+grep -q 'Warning: t = 0.0[0-9]* s: the contact surfaces of body bar and .* overlap by .* Structure gate moves as prescribed' clamped.log || fail "a gate that clamps a bar: no warning on two processes"
+setEntry clamped/system/controlDict endTime 0.5
+(cd clamped && flotsamFoam) > clamped.log 2>&1 && fail "a gate goes through a bar"
+[ "$(grep -c 'Warning: t = 0.0[0-9]* s: the contact surfaces of body bar and .* overlap by .* Structure gate moves as prescribed' clamped.log)" -eq 1 ] || fail "a gate that clamps a bar: not one warning"
+grep -q 'no step could be made .* Structure gate moves as prescribed' clamped.log || fail "a gate that clamps a bar: the run that it ends does not name it"
+
 # the tutorials' Allrun: says how it is used, runs nothing for options that it does not have
 allrun=tree/tutorials/bridgePier
 makeCase bridgePier $allrun
