@@ -2,16 +2,33 @@
 #include "foam/dictionaryChecks.H"
 
 #include "OStringStream.H"
+#include "Pstream.H"
 #include "error.H"
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
+#include <thread>
 
 namespace flotsam
 {
 
+namespace
+{
+
+/// In parallel every rank finds the same mistake. The first, which alone knows file and line, says it and ends the run; the others leave it the time to.
+void letMasterSpeak()
+{
+    const bool isCaught = Foam::FatalIOError.throwExceptions();
+    Foam::FatalIOError.throwExceptions(isCaught);
+    if (!isCaught && Foam::Pstream::parRun() && !Foam::Pstream::master()) std::this_thread::sleep_for(std::chrono::seconds(5));
+}
+
+} // namespace
+
 void failIn(const Foam::dictionary& dict, const std::string& message)
 {
+    letMasterSpeak();
     FatalIOErrorInFunction(dict) << message.c_str() << Foam::nl << Foam::exit(Foam::FatalIOError);
     throw std::logic_error(message); // never reached: exit() ends the run or throws
 }

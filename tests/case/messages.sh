@@ -112,6 +112,12 @@ rm -rf thin && cp -r good thin
 echo 'structures { gate { shape { type box; size (1e-6 0.01 0.1); } position (0.0512345 0 0.025); } }' >> thin/constant/bodies
 (cd thin && quietly flotsamFoam -dry-run && grep -q 'flow does not know of structures .* inside: gate\.' log.flotsamFoam) || fail "a structure between the nodes is not mentioned"
 
+# in parallel: said once, with the file
+rm -rf once && cp -r good once
+(cd once && quietly decomposePar && sed -i 's/density/densty/' constant/bodies && mpirun -np 2 flotsamFoam -parallel) > once.log 2>&1 && fail "an unknown keyword is accepted on two processes"
+[ "$(grep -c "Unknown keyword 'densty'" once.log)" -eq 1 ] || fail "an unknown keyword on two processes: not said once"
+grep -q 'file: .*/once/constant/bodies.bodies.bar ' once.log || fail "an unknown keyword on two processes: no file"
+
 # a gate that comes down on a bar on the bed: said when it happens, and the run that it ends names the gate
 makeFloatingBar clamped
 sed -i -e 's/590/1200/' -e 's/(0 0.001 0.025)/(0 -0.0895 0.025)/' -e '/orientation/d' clamped/constant/bodies
