@@ -298,6 +298,60 @@ std::shared_ptr<const SampledShape> sampleShape(std::shared_ptr<const Shape> sha
     return std::make_shared<SampledShape>(std::move(shape), std::max(0.25*thinnest, std::sqrt(area/largestNumber)));
 }
 
+namespace
+{
+
+Vec3 slope(const Shape& shape, const Vec3& x, double h)
+{
+    Vec3 g;
+    for (int d = 0; d < 3; ++d) g[d] = shape.distance(x + h*Vec3::Unit(d)) - shape.distance(x - h*Vec3::Unit(d));
+    return g;
+}
+
+/// Whether a ball of radius r inside the shape comes within r of the surface's point x: right corners have it at 0.73 r. Looked for by going inwards.
+bool isNearBall(const Shape& shape, const Vec3& x, double r)
+{
+    constexpr int nSteps = 20;
+    constexpr double length = 0.2, fits = 0.97;
+    Vec3 c = x;
+    for (int i = 0; i < nSteps; ++i)
+    {
+        const Vec3 g = slope(shape, c, 0.1*r);
+        if (g.isZero(0)) return false;
+        c -= length*r*g.normalized();
+        if ((c - x).squaredNorm() > 4*r*r) return false;
+        if (shape.distance(c) <= -fits*r) return true;
+    }
+    return false;
+}
+
+} // namespace
+
+double touchingThickness(const std::shared_ptr<const Shape>& shape, const SceneFrame& frame)
+{
+    const auto isOf = [inner = dynamic_cast<const PlacedShape*>(shape.get()) ? &dynamic_cast<const PlacedShape&>(*shape).inner() : shape.get()](auto* type)
+    {
+        return dynamic_cast<decltype(type)>(inner) != nullptr;
+    };
+    double thickness = thinnestExtent(*shape, frame);
+    if (frame.isPlanar || isOf((const UnionShape*)nullptr) || isOf((const BoxShape*)nullptr) || isOf((const SphereShape*)nullptr)
+        || isOf((const CylinderShape*)nullptr) || isOf((const CapsuleShape*)nullptr))
+        return thickness;
+    constexpr std::size_t most = 400;       // sample points
+    constexpr double bare = 0.05, smaller = 0.75;
+    constexpr int nTries = 12;              // down to a thirtieth
+    const std::shared_ptr<const SampledShape> sampled = sampleShape(shape, thickness);
+    const std::vector<Vec3>& points = sampled->points();
+    const std::size_t stride = points.size()/most + 1;
+    for (int i = 0; i < nTries; ++i, thickness *= smaller)
+    {
+        std::size_t n = 0, nBare = 0;
+        for (std::size_t k = 0; k < points.size(); k += stride, ++n) nBare += !isNearBall(*shape, points[k], 0.25*thickness);
+        if (nBare <= bare*n) break;
+    }
+    return thickness;
+}
+
 void makeSpheres(std::vector<BodyGroup>& groups)
 {
     double smallest = 1e300;
@@ -330,7 +384,7 @@ BodyGroup readBodyGroup(const std::string& name, const Foam::dictionary& dict, c
     body.material = readMaterial(dict, "material", frame.materials);
     body.isPlanar = frame.isPlanar;
     body.planeAxis = frame.planeAxis;
-    body.thinnest = thinnestExtent(*body.shape, frame);
+    body.thinnest = touchingThickness(body.shape, frame);
     body.entersAtRelease = readEntersAtRelease(dict);
     group.sampled = sampleShape(body.shape, body.thinnest);
     readGroupSpheres(dict, group);

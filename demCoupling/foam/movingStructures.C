@@ -47,7 +47,7 @@ std::vector<SurfaceSphere> contactSpheres(const StructureDefinition& s, const Sc
 
 void readContactSpheres(const Foam::dictionary& dict, const SceneFrame& frame, StructureDefinition& structure)
 {
-    const double thinnest = thinnestExtent(*structure.solid.shape, frame);
+    const double thinnest = touchingThickness(structure.solid.shape, frame);
     structure.sphereRadius = 0.25*thinnest;
     if (!dict.found("spheres")) return;
     if (!structure.motion) failIn(dict, "Entry 'spheres' is for structures with 'motion': of others bodies feel the facets (entry facetSize). Remove it.");

@@ -7,7 +7,10 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
 using namespace flotsam;
 
@@ -38,6 +41,60 @@ TEST_CASE("walls and mirror planes stop bodies where nothing else is said")
         CHECK(walls({{"system/blockMeshDict", "outlet { type patch;", "outlet { type " + type + ";"}, {"0/U", "outlet { type zeroGradient; }", mirror},
             {"0/alpha.water", "outlet { type zeroGradient; }", mirror}, {"0/p_rgh", "outlet { type fixedValue; value uniform 7; }", mirror}}) == both);
     }
+}
+
+/// An STL file of what turns round the x axis, twelve-sided: (x, radius) from end to end.
+void writeTurned(const std::string& file, const std::vector<std::array<double, 2>>& profile)
+{
+    constexpr int n = 12;
+    std::ofstream out(file);
+    out << "solid turned\n";
+    const auto at = [&](std::size_t k, int j) { return Vec3(profile[k][0], profile[k][1]*std::cos(2*M_PI*(j % n)/n), profile[k][1]*std::sin(2*M_PI*(j % n)/n)); };
+    const auto facet = [&](const Vec3& a, const Vec3& b, const Vec3& c)
+    {
+        out << "facet normal 0 0 0\nouter loop\n";
+        for (const Vec3& x : {a, b, c}) out << "vertex " << x[0] << ' ' << x[1] << ' ' << x[2] << '\n';
+        out << "endloop\nendfacet\n";
+    };
+    const std::size_t last = profile.size() - 1;
+    for (int j = 0; j < n; ++j)
+    {
+        facet(Vec3(profile[0][0], 0, 0), at(0, j + 1), at(0, j));
+        facet(Vec3(profile[last][0], 0, 0), at(last, j), at(last, j + 1));
+        for (std::size_t k = 0; k < last; ++k)
+        {
+            facet(at(k, j), at(k, j + 1), at(k + 1, j + 1));
+            facet(at(k, j), at(k + 1, j + 1), at(k + 1, j));
+        }
+    }
+    out << "endsolid turned\n";
+}
+
+TEST_CASE("the trunk of an STL log with a root wad has contact spheres all along")
+{
+    BodiesScene s;
+    const std::string folder = s.foam.folder() + "/constant/triSurface/";
+    if (s.halo.rank() == 0)
+    {
+        std::filesystem::create_directories(folder);
+        writeTurned(folder + "log.stl", {{{0, 0.08}}, {{0.04, 0.08}}, {{0.04, 0.02}}, {{0.4, 0.02}}});
+        writeTurned(folder + "drum.stl", {{{0, 0.08}}, {{0.16, 0.08}}});
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+    const auto read = [&](const std::string& file) { return s.read(bodies("shape { type stl; file \"" + file + "\"; } density 600; position (0.5 0.5 0.2);")).bodies[0]; };
+    const BodyDefinition log = read("log.stl");
+    CHECK(log.thinnest < 0.08);
+    CHECK(log.thinnest > 0.02);
+    double longest = 0;     // way along the trunk to the next sphere
+    for (double x = 0.05; x <= 0.4; x += 0.01)
+    {
+        double nearest = 1e300;
+        for (const SurfaceSphere& sphere : log.spheres) // at x along the log in the frame of the file
+            nearest = std::min(nearest, std::abs((log.pose.orientation*sphere.centre + log.pose.position)[0] - 0.5 - x) - sphere.radius);
+        longest = std::max(longest, nearest);
+    }
+    CHECK(longest < 0.01);
+    CHECK(read("drum.stl").thinnest == near(0.16, 0.02*0.16)); // stout ones keep theirs
 }
 
 /// Whether a ball of that radius inside the shape touches the surface at x: no edge.
