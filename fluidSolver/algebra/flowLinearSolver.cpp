@@ -87,7 +87,7 @@ struct FlowLinearSolver::Implementation
     KSP krylov = nullptr;
     Vec rhs = nullptr, solution = nullptr;
     int nVector = -1;
-    bool isNewMatrix = true;            // of the system: FlowSystem::isNewMatrix
+    bool isNewMatrix = true, isFirst = false;   // of the system: FlowSystem::isNewMatrix, isFirst
     double unfinished = std::numeric_limits<double>::infinity();    // residual that a trial with this matrix should have reached: what the solves after it must
 
     Implementation(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& h, const NumericsControls& c)
@@ -144,6 +144,8 @@ struct FlowLinearSolver::Implementation
     {
         double wanted = controls.tolerance*norm;
         const double smallest = std::max(negligible*wanted, system.roundOff());
+        // The first solve makes the whole pressure. What it leaves of that goes into vortices, which are solutions of the later steps: these do not take them back
+        if (isFirst) return smallest;
         // The right-hand side is mostly inertia over the time step, 150 times the forces in a vortex street: whoever looks at a solid wants these
         if (system.hasSolids())
         {
@@ -226,6 +228,7 @@ void FlowLinearSolver::setSystem(const FlowSystem& system)
 {
     NoFloatingPointTraps guard;
     impl_->isNewMatrix = system.isNewMatrix;
+    impl_->isFirst = system.isFirst;
     if (system.isNewMatrix) impl_->system.chooseVelocities(system);
     // the set-up of a hierarchy and the vectors of a solve, which hard solves have made many, need not be there at once
     if (system.isNewMatrix && impl_->system.pressure().isWorn()) impl_->destroyKrylov();

@@ -162,6 +162,7 @@ void Fluid::assemble()
     step.massFluxes = step.transport && controls_.surfaceTimeOrder == 2 ? &massFluxes_ : nullptr;
     equation_.assemble(step);
     equation_.system().isNewMatrix = true;
+    equation_.system().isFirst = isFirstStep();
     setFirstGuess();
 }
 
@@ -283,6 +284,7 @@ void Fluid::endStep()
         for (int d = 0; d < dim; ++d) state_.u[std::size_t(i)*dim + d] = x_[std::size_t(i)*B + d];
         state_.p[i] = x_[std::size_t(i)*B + dim];
     }
+    if (isFirstStep()) state_.pOld = state_.p;  // that of the start is no solution: extrapolated with it the next step would start as far off as from zero
     moveInactiveNodes();
     keepInlets();
     equation_.ghostFluxes(x_, ghostFlux_);

@@ -117,6 +117,7 @@ private:
     TransportReport advancePhase(double dt);
     TransportReport transportPhase(double dt, const std::vector<double>& u, const std::vector<double>& fine);
     double levelTolerance() const;
+    bool isFirstStep() const { return state_.dt <= 0; }    ///< no step of this run, or of the one that it goes on with, is known
     double profileRate() const;
     /// Over which the phase field is a mean; null: its values are the nodes'.
     const DualCells* profileCells() const { return supg_ ? nullptr : &transport_.cells(); }
