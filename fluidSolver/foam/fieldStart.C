@@ -53,7 +53,7 @@ private:
 };
 
 /// The surface between the cells' values, and the volume of their liquid.
-void readSurface(const MeshAdapter& adapter, const Halo& halo, const Foam::scalarField& alpha, FlowState& state)
+void readSurface(const Foam::polyMesh& cells, const MeshAdapter& adapter, const Halo& halo, const Foam::scalarField& alpha, FlowState& state)
 {
     std::vector<double> fraction(alpha.begin(), alpha.end());
     for (double& f : fraction) f = std::clamp(f, 0.0, 1.0);
@@ -68,7 +68,7 @@ void readSurface(const MeshAdapter& adapter, const Halo& halo, const Foam::scala
             for (int a = 0; a < n; ++a) volume[mesh.elements[std::size_t(e)*n + a]] += fraction[c]*mesh.volume[e]/n;
         }
     halo.sumToOwners(volume, 1);
-    state.startLiquid.isAtSide = reconstructSurface(adapter, halo, fraction, state.alpha);
+    state.startLiquid.isAtSide = reconstructSurface(cells, adapter, halo, fraction, state.alpha);
 }
 
 } // namespace
@@ -87,7 +87,7 @@ void FoamFields::readStart(FlowState& state) const
     if (alpha_)
     {
         state.alpha = toNodes([&](int c) { return std::clamp((*alpha_)[c], 0.0, 1.0); });
-        readSurface(adapter_, halo_, *alpha_, state);
+        readSurface(mesh_, adapter_, halo_, *alpha_, state);
     }
     else state.alpha.assign(mesh.nNodes, 1.0);
     const Foam::volScalarField& pressure = pressureRgh_ ? *pressureRgh_ : *pressure_;

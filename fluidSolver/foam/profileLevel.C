@@ -27,7 +27,7 @@ public:
         for (const SurfaceCell& p : cells.profile())
         {
             value_.push_back(std::atanh(2*p.fraction - 1)/unit);
-            centre_.push_back(cells.centroid(p));
+            centre_.push_back(cells.centre(p));
         }
         findSides(adapter, fraction);
     }

@@ -9,13 +9,13 @@ namespace flotsam
 namespace
 {
 
-constexpr double faceWeight = 1e-9;     // of full and empty cells whose face is the surface, beside partly filled ones
+constexpr double faceWeight = 1e-9;     // of full and empty cells whose face is the surface, and of those not trusted, beside partly filled ones
 constexpr double flattest = 0.05;       // change of alpha over a cell below which there is no surface (a mixture)
 
 } // namespace
 
-SurfaceCells::SurfaceCells(const MeshAdapter& adapter, const Halo& halo, const std::vector<double>& fraction)
-:   adapter_(adapter), mesh_(adapter.mesh), halo_(halo)
+SurfaceCells::SurfaceCells(const Foam::polyMesh& mesh, const MeshAdapter& adapter, const Halo& halo, const std::vector<double>& fraction)
+:   cells_(mesh), adapter_(adapter), mesh_(adapter.mesh), halo_(halo)
 {
     for (std::size_t c = 0; c < fraction.size(); ++c)
         if (kindOf(fraction[c]) == Partly) add(int(c), fraction[c]);
@@ -108,8 +108,16 @@ void SurfaceCells::add(int c, double fraction)
     SurfaceCell p{c, 0, fraction, 0, 0, {}};
     p.volume = collectCell(adapter_, c, p.nodes);
     p.size = std::pow(p.volume, 1.0/mesh_.dim);
-    p.weight = p.volume*(fraction*(1 - fraction) + faceWeight); // slivers say little about the surface
     cut_.push_back(std::move(p));
+    setTrust(cut_.size() - 1, true);
+}
+
+bool SurfaceCells::setTrust(std::size_t k, bool isTrusted)
+{
+    SurfaceCell& p = cut_[k];
+    const double before = p.weight;
+    p.weight = p.volume*((isTrusted ? p.fraction*(1 - p.fraction) : 0) + faceWeight); // slivers say little about the surface
+    return p.weight != before;
 }
 
 double SurfaceCells::diagonal(const SurfaceCell& p) const
@@ -151,15 +159,11 @@ void SurfaceCells::dropMixtures(const std::vector<double>& alpha)
     for (std::vector<SurfaceCell>* cells : {&cut_, &profile_}) cells->erase(std::remove_if(cells->begin(), cells->end(), isMixture), cells->end());
 }
 
-Vec3 SurfaceCells::centroid(const SurfaceCell& p) const
+Vec3 SurfaceCells::centre(const SurfaceCell& p) const
 {
-    const int n = mesh_.dim + 1;
+    const Foam::point& at = cells_.cellCentres()[p.cell];
     Vec3 x = Vec3::Zero();
-    for (int k = adapter_.cellStart[p.cell]; k < adapter_.cellStart[p.cell + 1]; ++k)
-    {
-        const std::size_t e = adapter_.cellElements[k];
-        for (int a = 0; a < n; ++a) x += mesh_.volume[e]/(n*p.volume)*point(mesh_.elements[e*n + a]);
-    }
+    for (int d = 0; d < mesh_.dim; ++d) x[d] = at[mesh_.axes[d]];
     return x;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam/surfaceFromCells.H"
 
+#include "foam/cellShare.H"
 #include "foam/profileLevel.H"
 #include "foam/surfaceCells.H"
 #include "geometry/cutSimplex.hpp"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace flotsam
 {
@@ -23,8 +25,8 @@ constexpr int patience = 10;            // sweeps in which the change must halve
 class Reconstruction
 {
 public:
-    Reconstruction(const MeshAdapter& adapter, const Halo& halo, const std::vector<double>& fraction)
-    :   adapter_(adapter), mesh_(adapter.mesh), halo_(halo), fraction_(fraction), cells_(adapter, halo, fraction)
+    Reconstruction(const Foam::polyMesh& mesh, const MeshAdapter& adapter, const Halo& halo, const std::vector<double>& fraction)
+    :   adapter_(adapter), mesh_(adapter.mesh), halo_(halo), fraction_(fraction), cells_(mesh, adapter, halo, fraction), shareOfCell_(mesh), weight_(mesh_.nNodes, 1.0)
     {}
 
     std::vector<char> run(std::vector<double>& alpha)
@@ -39,7 +41,8 @@ public:
         {
             change = average(level);
             if (sweep % patience != 0) continue;
-            if (change > 0.5*before) break;
+            const bool isOther = halo_.any(std::exchange(hasOtherTrust_, false));
+            if (change > 0.5*before && !isOther) break;
             before = change;
         }
         extend(level);
@@ -55,15 +58,16 @@ private:
         return sum;
     }
 
-    /// Share of the cell above the plane, and minus its derivative to the offset [1/m].
-    FluidFraction above(const SurfaceCell& p, const std::array<double, 3>& normal, double offset) const
+    /// Share of the cell above the plane, and minus its derivative to the offset [1/m]. In 2D, where cells have no warped faces, by the triangles.
+    FluidFraction above(const SurfaceCell& p, const std::array<double, 3>& normal, double offset)
     {
+        if (mesh_.dim == 3) return shareOfCell_(p.cell, {normal[0], normal[1], normal[2]}, offset);
         const int n = mesh_.dim + 1;
         FluidFraction sum{0, 0};
         for (int k = adapter_.cellStart[p.cell]; k < adapter_.cellStart[p.cell + 1]; ++k)
         {
             const std::size_t e = adapter_.cellElements[k];
-            double distance[4];
+            double distance[3];
             int nWet = 0;
             for (int a = 0; a < n; ++a)
             {
@@ -74,7 +78,7 @@ private:
             const double share = mesh_.volume[e]/p.volume;
             if (nWet == n) sum.value += share;
             if (nWet == 0 || nWet == n) continue;
-            const FluidFraction part = mesh_.dim == 2 ? fluidFraction<2>(distance) : fluidFraction<3>(distance);
+            const FluidFraction part = fluidFraction<2>(distance);
             sum.value += share*part.value;
             sum.slope += share*part.slope;
         }
@@ -82,7 +86,7 @@ private:
     }
 
     /// The plane normal.x = offset that cuts off the cell's fraction on its positive side.
-    double offset(const SurfaceCell& p, const std::array<double, 3>& normal) const
+    double offset(const SurfaceCell& p, const std::array<double, 3>& normal)
     {
         double low = 1e300, high = -1e300;
         for (int i : p.nodes)
@@ -102,6 +106,18 @@ private:
             if (std::abs(at - last) < 1e-16*p.size) break;
         }
         return at;
+    }
+
+    /// The plane's offset as the nodes have it from other cells.
+    double offsetOfNeighbours(const SurfaceCell& p, const std::array<double, 3>& normal, const std::vector<double>& level) const
+    {
+        double sum = 0, weights = 0;
+        for (int i : p.nodes)
+        {
+            sum += weight_[i]*(along(normal, i) - level[i]*cells_.length());
+            weights += weight_[i];
+        }
+        return sum/weights;
     }
 
     /// Unit normals of the cells: their gradients, averaged over the neighbours (a zigzag from cell to cell meets every fraction as well).
@@ -124,11 +140,17 @@ private:
     }
 
     /// One sweep: planes of the cells from the level's gradient, level of the nodes from the planes. Returns the largest change.
-    double average(std::vector<double>& level) const
+    double average(std::vector<double>& level)
     {
         const std::vector<std::array<double, 3>> normal = normals(level);
         std::vector<double> position(cells_.cut().size());
-        for (std::size_t k = 0; k < cells_.cut().size(); ++k) position[k] = offset(cells_.cut()[k], normal[k]);
+        for (std::size_t k = 0; k < cells_.cut().size(); ++k)
+        {
+            const SurfaceCell& p = cells_.cut()[k];
+            const bool isTrusted = mesh_.dim == 2 || !shareOfCell_.cutsFaceTwice(p.cell, [&](Foam::label i) { return level[adapter_.pointNode[i]] > 0; });
+            hasOtherTrust_ = cells_.setTrust(k, isTrusted) || hasOtherTrust_;
+            position[k] = isTrusted ? offset(p, normal[k]) : offsetOfNeighbours(p, normal[k], level);
+        }
         const auto levelOfPlane = [&](std::size_t k, int i, double* value) { *value = (along(normal[k], i) - position[k])/cells_.length(); }; // within 1/2
         const std::vector<double> next = cells_.toNodes(cells_.cut(), 1, levelOfPlane);
         double change = 0;
@@ -137,6 +159,7 @@ private:
             if (next[2*i + 1] <= 0) continue;
             change = std::max(change, std::abs(next[2*i] - level[i]));
             level[i] = next[2*i];
+            weight_[i] = next[2*i + 1];
         }
         return halo_.max(change);
     }
@@ -200,13 +223,16 @@ private:
     const Halo& halo_;
     const std::vector<double>& fraction_;
     SurfaceCells cells_;
+    CellShare shareOfCell_;
+    bool hasOtherTrust_ = false;    // than some sweeps ago
+    std::vector<double> weight_;    // of the nodes in the last sweep
 };
 
 } // namespace
 
-std::vector<char> reconstructSurface(const MeshAdapter& adapter, const Halo& halo, const std::vector<double>& fraction, std::vector<double>& alpha)
+std::vector<char> reconstructSurface(const Foam::polyMesh& mesh, const MeshAdapter& adapter, const Halo& halo, const std::vector<double>& fraction, std::vector<double>& alpha)
 {
-    return Reconstruction(adapter, halo, fraction).run(alpha);
+    return Reconstruction(mesh, adapter, halo, fraction).run(alpha);
 }
 
 } // namespace flotsam

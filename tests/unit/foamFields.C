@@ -261,7 +261,7 @@ TEST_CASE("a plane comes back from the cells' fractions as that plane, also wher
             constexpr double trace = 5e-5;
             const bool isOnFaces = s.halo.sum(nPartly) == 0;
             for (std::size_t c = 0; isOnFaces && c < fraction.size(); c += 3) fraction[c] = std::clamp(fraction[c], trace, 1 - trace);
-            reconstructSurface(s.adapter, s.halo, fraction, alpha);
+            reconstructSurface(s.foam.mesh(), s.adapter, s.halo, fraction, alpha);
             double length = 0; // of the level's unit
             for (int i = 0; i < mesh.nNodes; ++i)
                 if (alpha[i] > 0 && alpha[i] < 1 && std::abs(depth(i)) > 1e-3) length = std::max(length, depth(i)/(alpha[i] - 0.5));
@@ -299,7 +299,7 @@ TEST_CASE("a smooth profile over several cells comes back as the plane it was ma
             std::vector<double> fraction, alpha(mesh.nNodes);
             for (const Foam::vector& x : centres) fraction.push_back(0.5*(1 + std::tanh(depth(x.x(), x.y())/thickness)));
             for (int i = 0; i < mesh.nNodes; ++i) alpha[i] = 0.5*(1 + std::tanh(depth(mesh.x[2*i], mesh.x[2*i + 1])/thickness));
-            reconstructSurface(s.adapter, s.halo, fraction, alpha);
+            reconstructSurface(s.foam.mesh(), s.adapter, s.halo, fraction, alpha);
             double worst = 0;
             for (int e = 0; e < mesh.nElements; ++e)
             {
@@ -333,7 +333,7 @@ TEST_CASE("smooth levels keep to both sides of an upright side, which stays wher
         std::vector<double> fraction, alpha(mesh.nNodes);
         for (const Foam::vector& x : s.foam.mesh().cellCentres()) fraction.push_back(fill(x.x(), x.y()));
         for (int i = 0; i < mesh.nNodes; ++i) alpha[i] = 0.5*(fill(mesh.x[2*i] - h/2, mesh.x[2*i + 1]) + fill(mesh.x[2*i] + h/2, mesh.x[2*i + 1]));
-        reconstructSurface(s.adapter, s.halo, fraction, alpha);
+        reconstructSurface(s.foam.mesh(), s.adapter, s.halo, fraction, alpha);
         double worst = 0, worstSide = 0, nSide = 0;
         for (int e = 0; e < mesh.nElements; ++e)
         {
@@ -380,7 +380,7 @@ TEST_CASE("no surface comes near nodes whose cells are all empty, as above a col
                     const double x = mesh.x[2*i], y = mesh.x[2*i + 1];
                     alpha[i] = 0.25*(overlap(x - h/2, left, left + width) + overlap(x + h/2, left, left + width))*(overlap(y - h/2, -1, top) + overlap(y + h/2, -1, top));
                 }
-                reconstructSurface(s.adapter, s.halo, fraction, alpha);
+                reconstructSurface(s.foam.mesh(), s.adapter, s.halo, fraction, alpha);
                 double nearest = 1e300;
                 for (int i = 0; i < mesh.nOwned; ++i)
                     if (wet[i] == 0) nearest = std::min(nearest, length*(0.5 - alpha[i]));
