@@ -301,6 +301,9 @@ std::shared_ptr<const SampledShape> sampleShape(std::shared_ptr<const Shape> sha
 namespace
 {
 
+template<class... Types>
+bool isOneOf(const Shape& shape) { return (... || (dynamic_cast<const Types*>(&shape) != nullptr)); }
+
 Vec3 slope(const Shape& shape, const Vec3& x, double h)
 {
     Vec3 g;
@@ -329,14 +332,9 @@ bool isNearBall(const Shape& shape, const Vec3& x, double r)
 
 double touchingThickness(const std::shared_ptr<const Shape>& shape, const SceneFrame& frame)
 {
-    const auto isOf = [inner = dynamic_cast<const PlacedShape*>(shape.get()) ? &dynamic_cast<const PlacedShape&>(*shape).inner() : shape.get()](auto* type)
-    {
-        return dynamic_cast<decltype(type)>(inner) != nullptr;
-    };
+    const auto* placed = dynamic_cast<const PlacedShape*>(shape.get());
     double thickness = thinnestExtent(*shape, frame);
-    if (frame.isPlanar || isOf((const UnionShape*)nullptr) || isOf((const BoxShape*)nullptr) || isOf((const SphereShape*)nullptr)
-        || isOf((const CylinderShape*)nullptr) || isOf((const CapsuleShape*)nullptr))
-        return thickness;
+    if (frame.isPlanar || isOneOf<UnionShape, BoxShape, SphereShape, CylinderShape, CapsuleShape>(placed ? placed->inner() : *shape)) return thickness;
     constexpr std::size_t most = 400;       // sample points
     constexpr double bare = 0.05, smaller = 0.75;
     constexpr int nTries = 12;              // down to a thirtieth

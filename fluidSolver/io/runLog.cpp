@@ -241,7 +241,7 @@ std::string RunLog::summary(const RunSummary& s)
 
     if (!s.anomalies.empty())
     {
-        text += "\n  counted in this run (0 is good)\n";
+        text += "\n  counted in this run (0 is good; faces are limited wherever fronts meet in a splash)\n";
         for (const auto& a : s.anomalies) text += format("  %-40s %12lld\n", a.first.c_str(), a.second);
     }
     if (s.bodiesAwaited > 0) text += format("\n  %d of %d bodies have not come in\n", s.bodiesAwaited, s.bodies);
