@@ -120,7 +120,7 @@ void BodyCoupling::shareResults()
             put(at, touch_.wallLoads[w].moment);
             *at++ = touch_.wallCounts[w];
         }
-        put(at, Vec3(touch_.deepestBody, touch_.deepestOther, touch_.pressing));
+        for (int number : {touch_.deepestBody, touch_.deepestOther, touch_.pressing}) *at++ = number;
         *at = touch_.largestOverlap;
     }
     MPI_Bcast(buffer.data(), int(buffer.size()), MPI_DOUBLE, 0, comm_);
@@ -138,11 +138,7 @@ void BodyCoupling::shareResults()
         get(at, touch_.wallLoads[w].moment);
         touch_.wallCounts[w] = int(*at++);
     }
-    Vec3 deepest;
-    get(at, deepest);
-    touch_.deepestBody = int(deepest[0]);
-    touch_.deepestOther = int(deepest[1]);
-    touch_.pressing = int(deepest[2]);
+    for (int* number : {&touch_.deepestBody, &touch_.deepestOther, &touch_.pressing}) *number = int(*at++);
     touch_.largestOverlap = *at;
 }
 
@@ -157,6 +153,32 @@ std::string BodyCoupling::deepestPair() const
 
 std::string BodyCoupling::pressingMover() const { return touch_.pressing < 0 ? "" : setup_.movers[touch_.pressing].name; }
 
+void BodyCoupling::countContacts(const std::vector<Contact>& contacts)
+{
+    std::fill(touch_.counts.begin(), touch_.counts.end(), 0);
+    std::fill(touch_.wallCounts.begin(), touch_.wallCounts.end(), 0);
+    touch_.largestOverlap = 0;
+    touch_.deepestBody = touch_.pressing = -1;
+    double force = 0; // half of the deepest's, then of the movers'
+    for (const Contact& c : contacts)
+    {
+        ++touch_.counts[c.body];
+        ++(c.other >= 0 ? touch_.counts[c.other] : touch_.wallCounts[-1 - c.other]);
+        if (c.overlap <= touch_.largestOverlap) continue;
+        touch_.largestOverlap = c.overlap;
+        touch_.deepestBody = c.body;
+        touch_.deepestOther = c.other;
+        force = 0.5*c.force.norm();
+    }
+    for (const Contact& c : contacts)
+    {
+        const int mover = -1 - c.other - int(setup_.walls.size());
+        if (mover < 0 || touch_.counts[c.body] < 2 || !(c.force.norm() > force)) continue; // alone it pushes its body on
+        force = c.force.norm();
+        touch_.pressing = mover;
+    }
+}
+
 void BodyCoupling::runEngine(double duration, const std::vector<Load>& loads)
 {
     guarded([&]
@@ -167,31 +189,7 @@ void BodyCoupling::runEngine(double duration, const std::vector<Load>& loads)
         result_ = engine_->states();
         newContact_ = engine_->meanContactLoads();
         touch_.wallLoads = engine_->meanWallLoads();
-        std::fill(touch_.counts.begin(), touch_.counts.end(), 0);
-        std::fill(touch_.wallCounts.begin(), touch_.wallCounts.end(), 0);
-        touch_.largestOverlap = 0;
-        touch_.deepestBody = touch_.pressing = -1;
-        const std::vector<Contact> contacts = engine_->contacts();
-        double force = 0; // of the deepest, then of the movers
-        for (const Contact& c : contacts)
-        {
-            ++touch_.counts[c.body];
-            ++(c.other >= 0 ? touch_.counts[c.other] : touch_.wallCounts[-1 - c.other]);
-            if (c.overlap > touch_.largestOverlap)
-            {
-                touch_.largestOverlap = c.overlap;
-                touch_.deepestBody = c.body;
-                touch_.deepestOther = c.other;
-                force = 0.5*c.force.norm();
-            }
-        }
-        for (const Contact& c : contacts)
-        {
-            const int mover = -1 - c.other - int(setup_.walls.size());
-            if (mover < 0 || touch_.counts[c.body] < 2 || !(c.force.norm() > force)) continue; // alone it pushes its body on
-            force = c.force.norm();
-            touch_.pressing = mover;
-        }
+        countContacts(engine_->contacts());
         if (!engine_->hasContact()) newContact_.assign(newContact_.size(), Load()); // round-off of a free flight
     });
     shareResults();

@@ -95,6 +95,7 @@ public:
 
 private:
     void runEngine(double duration, const std::vector<Load>& loads);
+    void countContacts(const std::vector<Contact>& contacts);
     void shareResults();
     BodyState drifted(int body) const;
     void predictContacts();

@@ -173,6 +173,8 @@ Eigen::Quaterniond drawOrientation(const RandomPlacement& random, const Eigen::Q
     return numbers.rotation();
 }
 
+constexpr double roundOff = 1e-12;  // of the box of random bodies [m]
+
 /// The draw that came nearest to fitting into the box.
 struct TightestFit
 {
@@ -185,28 +187,24 @@ bool drawPose(const BodyGroup& group, const RandomPlacement& random, const Eigen
 {
     pose = compose({Vec3::Zero(), drawOrientation(random, base, frame, numbers)}, group.prototype.pose);
     const auto box = ShapeAtPose{"", group.sampled, pose}.spaceBounds();
+    const Vec3 lower = random.box[0] - box[0], upper = random.box[1] - box[1];
+    const auto isFree = [&](int d) { return frame.isPlanar && d == frame.planeAxis; };
     TightestFit fit{-1e300};
     for (int d = 0; d < 3; ++d)
-    {
-        const double lower = random.box[0][d] - box[0][d], upper = random.box[1][d] - box[1][d];
-        const bool isFree = frame.isPlanar && d == frame.planeAxis;
-        if (!isFree && lower - upper > fit.excess) fit = {lower - upper, box[1][d] - box[0][d], d};
-    }
+        if (!isFree(d) && lower[d] - upper[d] > fit.excess) fit = {lower[d] - upper[d], box[1][d] - box[0][d], d};
     if (fit.excess < tightest.excess) tightest = fit;
     for (int d = 0; d < 3; ++d)
     {
-        const double lower = random.box[0][d] - box[0][d], upper = random.box[1][d] - box[1][d];
         const double u = numbers.uniform();
-        const bool isFree = frame.isPlanar && d == frame.planeAxis;
-        if (!isFree && lower > upper + 1e-12) return false;
-        pose.position[d] += isFree ? frame.midPlane - 0.5*(box[0] + box[1])[d] : lower + u*(upper - lower);
+        if (!isFree(d) && lower[d] - upper[d] > roundOff) return false;
+        pose.position[d] += isFree(d) ? frame.midPlane - 0.5*(box[0] + box[1])[d] : lower[d] + u*(upper[d] - lower[d]);
     }
     return true;
 }
 
 [[noreturn]] void failToPlace(const BodyGroup& group, const RandomPlacement& random, int nPlaced, const TightestFit& tightest, const Foam::dictionary& dict)
 {
-    if (tightest.excess > 1e-12)
+    if (tightest.excess > roundOff)
         failIn(dict, text("Bodies '", group.prototype.name, "' do not fit into 'box', which must hold the whole of them: it is ", tightest.extent - tightest.excess,
             " m long along ", "xyz"[tightest.axis], ", a body ", random.orientation == "fixed" ? "" : "in the best of all orientations that were tried ", tightest.extent,
             " m.\n    Enlarge 'box'", random.orientation == "fixed" ? ", or turn the bodies ('orientation')." : ", or allow more 'tries'."));
@@ -296,58 +294,6 @@ std::shared_ptr<const SampledShape> sampleShape(std::shared_ptr<const Shape> sha
     const Vec3 s = upper - lower;
     const double area = 2*(s[0]*s[1] + s[1]*s[2] + s[2]*s[0]);
     return std::make_shared<SampledShape>(std::move(shape), std::max(0.25*thinnest, std::sqrt(area/largestNumber)));
-}
-
-namespace
-{
-
-template<class... Types>
-bool isOneOf(const Shape& shape) { return (... || (dynamic_cast<const Types*>(&shape) != nullptr)); }
-
-Vec3 slope(const Shape& shape, const Vec3& x, double h)
-{
-    Vec3 g;
-    for (int d = 0; d < 3; ++d) g[d] = shape.distance(x + h*Vec3::Unit(d)) - shape.distance(x - h*Vec3::Unit(d));
-    return g;
-}
-
-/// Whether a ball of radius r inside the shape comes within r of the surface's point x: right corners have it at 0.73 r. Looked for by going inwards.
-bool isNearBall(const Shape& shape, const Vec3& x, double r)
-{
-    constexpr int nSteps = 20;
-    constexpr double length = 0.2, fits = 0.97;
-    Vec3 c = x;
-    for (int i = 0; i < nSteps; ++i)
-    {
-        const Vec3 g = slope(shape, c, 0.1*r);
-        if (g.isZero(0)) return false;
-        c -= length*r*g.normalized();
-        if ((c - x).squaredNorm() > 4*r*r) return false;
-        if (shape.distance(c) <= -fits*r) return true;
-    }
-    return false;
-}
-
-} // namespace
-
-double touchingThickness(const std::shared_ptr<const Shape>& shape, const SceneFrame& frame)
-{
-    const auto* placed = dynamic_cast<const PlacedShape*>(shape.get());
-    double thickness = thinnestExtent(*shape, frame);
-    if (frame.isPlanar || isOneOf<UnionShape, BoxShape, SphereShape, CylinderShape, CapsuleShape>(placed ? placed->inner() : *shape)) return thickness;
-    constexpr std::size_t most = 400;       // sample points
-    constexpr double bare = 0.05, smaller = 0.75;
-    constexpr int nTries = 12;              // down to a thirtieth
-    const std::shared_ptr<const SampledShape> sampled = sampleShape(shape, thickness);
-    const std::vector<Vec3>& points = sampled->points();
-    const std::size_t stride = points.size()/most + 1;
-    for (int i = 0; i < nTries; ++i, thickness *= smaller)
-    {
-        std::size_t n = 0, nBare = 0;
-        for (std::size_t k = 0; k < points.size(); k += stride, ++n) nBare += !isNearBall(*shape, points[k], 0.25*thickness);
-        if (nBare <= bare*n) break;
-    }
-    return thickness;
 }
 
 void makeSpheres(std::vector<BodyGroup>& groups)

@@ -3,8 +3,8 @@
 ///
 /// Preconditioner (lower-upper block factorisation, SIMPLE type): velocity by its diagonal blocks, or one block where
 /// ghost penalty holds the nodes, solids by their own mass and wall blocks, pressure by one BoomerAMG V-cycle on the assembled Schur approximation,
-/// corrected at such nodes, plus its viscous part (Cahouet & Chabat 1988, doi 10.1002/fld.1650080802), less what free bodies give way (bodyCompliance.hpp). Rows and columns are scaled by the diagonals: the plain
-/// residual norm is meaningless at a density ratio of 1000.
+/// corrected at such nodes, plus its viscous part (Cahouet & Chabat 1988, doi 10.1002/fld.1650080802), less what free bodies give way
+/// (bodyCompliance.hpp). Rows and columns are scaled by the diagonals: the plain residual norm is meaningless at a density ratio of 1000.
 #pragma once
 
 #include "algebra/flowOperator.hpp"
