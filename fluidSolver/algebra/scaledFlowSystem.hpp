@@ -85,7 +85,7 @@ private:
     double level_ = 0;                      // mean of the prescribed pressures [Pa]
     double roundOff_ = 0;
     std::vector<double> scale_;             // nOwned*B: 1/sqrt(diagonal)
-    std::vector<float> viscousPressure_;    // nOwned: inverse of the viscous part of the Schur complement, lumped; only preconditions
+    std::vector<float> pointwisePressure_;  // nOwned: what the inverse of the Schur complement has besides the V-cycle; only preconditions
     std::vector<double> local_;             // work: nNodes*B, unscaled
     std::vector<double> pressureRows_, gradient_; // work: nOwned, nOwned*dim
     std::vector<double> pressureLocal_;     // work: nNodes

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Approximate inverse of the velocity block of a FlowSystem, which only preconditions: its diagonal blocks, in single precision, and where these are far
+/// Approximate inverse of the velocity block of a FlowSystem, which only preconditions: its diagonal blocks, damped, in single precision, and where these are far
 /// off: one block for all nodes that ghost penalty holds, a symmetric Gauss-Seidel sweep over gas nodes beside water (docs/numerics.md, section 5).
 #pragma once
 
@@ -23,7 +23,7 @@ public:
     /// Symmetric Gauss-Seidel on the light nodes, from the z of solve() without its prescribed directions; r and scale as there.
     void relaxLightNodes(const double* r, const double* scale, double* z) const;
 
-    /// Takes the inverse blocks times g (dim values a node) from the velocities of z.
+    /// Takes the damped inverse blocks times g (dim values a node) from the velocities of z.
     void subtractDiagonal(const double* g, double* z);
 
 private:
