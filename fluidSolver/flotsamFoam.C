@@ -15,6 +15,7 @@
 #include "foam/writeTimes.H"
 
 #include "algebra/needlessWork.hpp"
+#include "core/bodyWalls.hpp"
 #include "core/nextTimeStep.hpp"
 #include "io/stopSignal.hpp"
 
@@ -245,7 +246,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     PetscSession petsc(MPI_COMM_WORLD);
     checkProcesses();
     const CaseControls controls = readCaseControls(runTime);
-    const MeshAdapter adapter = makeSimplexMesh(mesh, MPI_COMM_WORLD, verticalAxis(controls.fluid.gravity));
+    MeshAdapter adapter = makeSimplexMesh(mesh, MPI_COMM_WORLD, verticalAxis(controls.fluid.gravity));
     const Halo halo(adapter.mesh, MPI_COMM_WORLD);
     std::vector<BoundaryPatch> boundary = readBoundary(mesh, adapter, halo, controls);
     FoamFields fields(mesh, adapter, halo, controls);
@@ -255,6 +256,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     checkEntries(bodies, controls.fluid);
     for (BoundaryPatch& patch : boundary)
         patch.stopsBodies = std::find(bodies.wallPatches.begin(), bodies.wallPatches.end(), patch.name) != bodies.wallPatches.end();
+    takeBodyWalls(adapter.mesh, boundary);
     printCaseCheck(controls, adapter, halo, boundary, countScene(bodies));
     PhaseTimers timers;
     if (task == Task::Check)

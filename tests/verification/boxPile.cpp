@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Boxes that lie flush beside and on each other on the bed of a tank: hardly any pressure moves them apart, and solves that took the bodies for fixed would answer every
 /// pressure far too strongly. At rest they weigh on the bed what they weigh in water, and a step needs no second solve.
+#include "core/bodyWalls.hpp"
 #include "support/coupledRig.hpp"
 #include "support/near.hpp"
 
@@ -25,7 +26,8 @@ struct Tank : CoupledRig
         fluid.gravity[2] = -gravity;
         for (int p = 0; p < 5; ++p) patches.push_back(makePatch(mesh, p, BoundaryPatch::Velocity::Slip));
         patches.push_back(makePatch(mesh, 5, BoundaryPatch::Velocity::Open));
-        for (int p = 0; p < 5; ++p) mesh.patches[p].type = "wall";
+        for (BoundaryPatch& patch : patches) patch.stopsBodies = patch.isWall();
+        takeBodyWalls(mesh, patches);
     }
 };
 
