@@ -227,6 +227,8 @@ void CoverBuilder::cutPatchFaces(Cover& cover, int element, const std::vector<do
         }
     }
 }
+template void CoverBuilder::cutPatchFaces<2>(Cover&, int, const std::vector<double>&, const std::vector<int>&) const;
+template void CoverBuilder::cutPatchFaces<3>(Cover&, int, const std::vector<double>&, const std::vector<int>&) const;
 
 template <int dim>
 void CoverBuilder::cutElementOfSolids(Cover& cover, const std::vector<Solid>& solids, int element) const

@@ -282,6 +282,8 @@ void CoverBuilder::copyFixedCuts()
         cover_.facets.insert(cover_.facets.end(), fixedCover_.facets.begin() + cut.facetStart, fixedCover_.facets.begin() + cut.facetEnd);
         cover_.cuts.back().facetEnd = static_cast<int>(cover_.facets.size());
     }
+    for (const CutPatchFace& face : fixedCover_.patchFaces)
+        if (elementMark_[face.element] != mark_) cover_.patchFaces.push_back(face);
 }
 
 } // namespace flotsam

@@ -13,14 +13,22 @@ namespace
 /// Of a structure's size: distance of a face from the mesh's boundary, or of a node from the face, that is none.
 constexpr double flush = 1e-9;
 
+/// Of a node in the solid or on it: faces that lie beyond the mesh are none to it, unless there are no others.
+void leaveOut(unsigned beyond, double onFace, double* distances, int n)
+{
+    if (*std::max_element(distances, distances + n) > onFace || beyond == (1u << n) - 1) return;
+    for (int f = 0; f < n; ++f)
+        if (beyond >> f & 1) distances[f] = -farDistance;
+}
+
 } // namespace
 
-/// The faces of the mesh's boundary are cut linearly: a structure that reaches through it is as well. A free body stays sharp on its way out:
-/// its cut, and with it its weight in the water, must not jump; only the fluid part of an open boundary's faces at its edges is then not exact. So do thin solids,
-/// of which linear cuts see too little (coarseBodies.cpp).
+/// A structure that moves through the mesh's boundary is cut linearly, as the boundary's faces there are. What is at rest is sharp wherever it lies, and so are the faces of the boundary at its
+/// edges (Cover::patchFaces). A free body stays sharp on its way out: its cut, and with it its weight in the water, must not jump; only the fluid part of an open boundary's
+/// faces at its edges is then not exact. So do thin solids, of which linear cuts see too little (coarseBodies.cpp).
 bool CoverBuilder::isSharp(const Solid& solid) const
 {
-    if (solid.kind == Solid::Kind::Free || solid.isThin) return true;
+    if (solid.kind != Solid::Kind::Prescribed || solid.isThin) return true;
     Solid plain = solid; // the answer decides about the offsets: it must not depend on them
     plain.offset = 0;
     plain.offsetSlope.setZero();
@@ -30,9 +38,9 @@ bool CoverBuilder::isSharp(const Solid& solid) const
     return true;
 }
 
-/// Faces of a structure at rest that lie beyond the mesh or on its boundary, as bits: the foot of a pier that stands on the bed. The cut must not know them: a node of the
-/// bed would be as near to the surface as the pier reaches below the bed, and the linear cut would let water under the foot. Of a moving structure they
-/// are known, as what they sweep must not jump. Distances from faces are convex: the corners of what the mesh's box and the structure's have in common tell.
+/// Faces of a structure at rest that lie beyond the mesh or on its boundary, as bits: the foot of a pier that stands on the bed. The distances at the nodes must not know them: a node of the
+/// bed would be as near to the surface as the pier reaches below the bed, and between two solids, where the cut is linear, water would get under the foot. Of a moving
+/// structure they are known, as what they sweep must not jump. Distances from faces are convex: the corners of what the mesh's box and the structure's have in common tell.
 unsigned CoverBuilder::facesBeyond(const Solid& solid) const
 {
     double distances[maxFaces];
@@ -72,17 +80,8 @@ void CoverBuilder::sample(const Solid& solid, std::vector<Sample>& samples) cons
     const Vec3 position = solid.pose.position;
     const double outward = solid.offsetBound();
     const bool sharp = isSharp(solid);
-    const unsigned beyond = sharp ? 0 : facesBeyond(solid);
+    const unsigned beyond = solid.isThin ? 0 : facesBeyond(solid);
     const double onFace = flush * (upper - lower).norm();
-    const auto linearDistance = [&](const Vec3& y)
-    {
-        double faces[maxFaces], d = shape.distance(y), inside = -farDistance;
-        if (beyond == 0 || d > onFace) return d;
-        const int n = shape.faceDistances(y, faces);
-        for (int f = 0; f < n; ++f)
-            if (!(beyond >> f & 1)) inside = std::max(inside, faces[f]);
-        return inside > -farDistance ? inside : d;
-    };
     const Vec3 far = Vec3::Constant(farDistance);
     bins_.forEachNear(isNeedless_ ? std::array<Vec3, 2>{-far, far} : solid.spaceBounds(), [&](int node, const Vec3& x)
     {
@@ -92,8 +91,9 @@ void CoverBuilder::sample(const Solid& solid, std::vector<Sample>& samples) cons
         if (outside > limit && !isNeedless_) return;
         double faces[maxFaces];
         const int nFaces = !sharp ? 0 : solid.planeFaces ? solid.planeFaces->distances(y, faces) : shape.faceDistances(y, faces);
+        if (beyond != 0) leaveOut(beyond, onFace, faces, nFaces);
         const double* nearest = std::max_element(faces, faces + nFaces);
-        const double d = film_.joined(node, solid, nFaces > 0 ? *nearest : linearDistance(y));
+        const double d = film_.joined(node, solid, nFaces > 0 ? *nearest : shape.distance(y));
         if (d > limit) return;
         const int face = static_cast<int>(nearest - faces);
         Sample sample{node, face, face, d, noFilm};
