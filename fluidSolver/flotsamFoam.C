@@ -5,6 +5,7 @@
 /// This file is the only one that knows the fluid and the bodies: it reads the case, runs the time loop, writes.
 #include "demCoupling/coupling/coupledStep.hpp"
 #include "demCoupling/foam/bodiesReader.H"
+#include "demCoupling/foam/bodyChecks.H"
 #include "demCoupling/foam/runOutput.H"
 #include "demCoupling/foam/structureChecks.H"
 #include "foam/boundaryReader.H"
@@ -254,6 +255,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     const Vec3 gravity(g[0], g[1], g[2]);
     const BodiesInput bodies = readBodies(mesh, adapter.mesh, halo, gravity);
     checkEntries(bodies, controls.fluid);
+    reportBodies(bodies, controls.fluid);
     for (BoundaryPatch& patch : boundary)
         patch.stopsBodies = std::find(bodies.wallPatches.begin(), bodies.wallPatches.end(), patch.name) != bodies.wallPatches.end();
     takeBodyWalls(adapter.mesh, boundary);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// constant/bodies: one message for every mistake.
 #include "demCoupling/foam/repeatedGroups.hpp"
+#include "demCoupling/foam/bodyChecks.H"
 #include "support/bodiesScene.H"
 #include "support/near.hpp"
 
@@ -112,4 +113,30 @@ TEST_CASE("an open STL is refused with its file")
     CHECK(has(message, "open.stl"));
     CHECK(has(message, "the surface is open")); // so it was found and read, on every rank
     CHECK(has(s.message(bodies("shape { type stl; file \"absent.stl\"; } density 500;")), "absent.stl"));
+}
+
+TEST_CASE("bodies lighter than the gas, and those that their weight presses deep into what they lie on, are told")
+{
+    BodiesScene s;
+    FluidProperties fluid;
+    fluid.gravity = {0, -9.81, 0};
+    const std::string cube = "shape { type box; size (0.1 0.1 0.1); } ";
+    const auto doubts = [&](const std::string& stiffness, const std::string& rest) // two cubes
+    {
+        const BodiesInput input = s.read("materials (wood steel); wallMaterial steel; contact { default { stiffness 100; } wood-steel { " + stiffness + " } } bodies { cube { " + cube + rest
+            + " material wood; poses ( { position (0.5 0.5 0.2); } { position (0.8 0.5 0.2); } ); } }");
+        return doubtfulBodies(input, fluid);
+    };
+    CHECK(doubts("stiffness 1e4;", "density 600;").empty());
+    const auto light = doubts("stiffness 1e4;", "density 0.6;");
+    REQUIRE(light.size() == 1);
+    CHECK(has(light[0], "body cube.0 (and 1 more) is lighter than the gas (density 0.6, gas 1 kg/m^3)"));
+    fluid.isTwoPhase = false;
+    CHECK(doubts("stiffness 1e4;", "density 0.6;").empty());
+    const auto soft = doubts("stiffness 1000;", "mass 1;");     // 9.81 mm of 100 mm
+    REQUIRE(soft.size() == 1);
+    CHECK(has(soft[0], "its weight alone (9.81 N) presses it 0.00981 m, 10 % of its thickness"));
+    CHECK(has(soft[0], "19620 N/m"));
+    CHECK(doubts("stiffness 2000;", "mass 1;").empty());        // 4.9 %
+    CHECK(doubts("stiffness 1000; perBody off;", "mass 1;").empty());
 }
