@@ -239,7 +239,7 @@ void DualCellTransport::advancePart(const Arguments& in, const Part& part, Trans
     addBoundary(in, part, report);
     addUpwind<dim>(in, part);
     addPairs(in, part);
-    reconstruction_.build(in.alpha, aroundActive_, activeNodes_, in.cover);
+    reconstruction_.build(in.alpha, aroundActive_, activeNodes_, in.cover, in.surface ? &in.surface->distance : nullptr);
     if (part.level == 0)
     {
         report.nRoof = reconstruction_.nRoofs();

@@ -2,9 +2,11 @@
 #include "equations/profileReconstruction.hpp"
 
 #include "core/elementaryFunctions.hpp"
+#include "equations/facingElements.hpp"
 #include "equations/profileMeans.hpp"
 #include "geometry/cover.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace flotsam
@@ -15,6 +17,8 @@ namespace
 
 /// Below this ratio |sum of normals|/sum of |normals| a cell gets a roof instead of one front.
 constexpr double coherenceLimit = 0.95;
+/// The same for directions read from cell means, which are those of a plane to round-off: what bends more is left to roofs and films.
+constexpr double coherenceOfMeans = 0.99;
 
 /// Slope, relative to the equilibrium profile's, below which alpha counts as mixed: there is no surface to keep sharp
 /// (and where the width varies with the mesh, a constant alpha has a slope of this order).
@@ -143,6 +147,54 @@ void ProfileReconstruction::sumNormals(const std::vector<double>& alpha, const s
     }
 }
 
+/// Whether the neighbours agree on a direction by distances read from cell means; it is the front's then. Where dual cells differ in size and their centroids lie beside their
+/// nodes (polyhedra, whose corners have 6 to 70 tetrahedra) a flat surface's values, taken for those at the nodes, do not.
+template<int dim>
+bool ProfileReconstruction::agreesByMeans(int i, const std::vector<double>& alpha, const Cover* cover)
+{
+    constexpr int n = dim + 1;
+    double sum[dim] = {}, lengths = 0, squares = 0;
+    for (int k = graph_.nodeElementStart[i]; distance_ && k < graph_.nodeElementStart[i + 1]; ++k)
+    {
+        const int e = graph_.nodeElement[k], *nodes = &mesh_.elements[std::size_t(e)*n];
+        const auto isRead = [&](int j) { return alpha[j] > lowestOfBand && alpha[j] < highestOfBand; };
+        if ((cover && cover->state[e] == ElementState::Solid) || !std::all_of(nodes, nodes + n, isRead))
+        {
+            continue;
+        }
+        double gradient[dim] = {}, weight = 0, square = 0;
+        for (int a = 0; a < n; ++a)
+        {
+            weight += variation(alpha[nodes[a]]);
+            for (int d = 0; d < dim; ++d)
+            {
+                gradient[d] += (*distance_)[nodes[a]]*mesh_.gradN[(std::size_t(e)*n + a)*dim + d];
+            }
+        }
+        weight *= weight*fluidVolume(mesh_, cover, e);
+        for (int d = 0; d < dim; ++d)
+        {
+            square += gradient[d]*gradient[d];
+            sum[d] += weight*gradient[d];
+        }
+        lengths += weight*std::sqrt(square);
+    }
+    for (int d = 0; d < dim; ++d)
+    {
+        squares += sum[d]*sum[d];
+    }
+    const double length = std::sqrt(squares);
+    if (!(length > 0 && length >= coherenceOfMeans*lengths))
+    {
+        return false;
+    }
+    for (int d = 0; d < dim; ++d)
+    {
+        profile_[i].normal[d] = sum[d]/length;
+    }
+    return true;
+}
+
 /// Puts the front where the cell's mean is alpha.
 template<int dim>
 void ProfileReconstruction::fillFront(int i, double alpha)
@@ -241,7 +293,7 @@ void ProfileReconstruction::build(const std::vector<double>& alpha, const std::v
         p.steepness = 1/width_[i];
         std::fill_n(p.bend, 6, 0.);
         const double coherence = length/coherence_[i];
-        const bool isCoherent = coherence >= coherenceLimit;
+        const bool isCoherent = coherence >= coherenceLimit || agreesByMeans<dim>(i, alpha, cover);
         const double lesser = std::min(alpha[i], 1 - alpha[i]);
         const bool isBent = isCoherent && lesser >= leastOfBent, mayBeFilm = lesser >= leastOfFilm;
         Ring ring;
@@ -275,8 +327,9 @@ void ProfileReconstruction::build(const std::vector<double>& alpha, const std::v
 }
 
 void ProfileReconstruction::build(const std::vector<double>& alpha, const std::vector<int>& elements,
-    const std::vector<int>& nodes, const Cover* cover)
+    const std::vector<int>& nodes, const Cover* cover, const std::vector<double>* distance)
 {
+    distance_ = distance;
     if (mesh_.dim == 2)
     {
         build<2>(alpha, elements, nodes, cover);

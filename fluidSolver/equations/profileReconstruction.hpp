@@ -76,9 +76,10 @@ public:
         const std::vector<double>& width);
 
     /// `elements`: all local elements in which alpha varies; `nodes`: owned and first-ring nodes of them. Fills kind() and profile() of
-    /// `nodes` and the level for levelGradient(). Solid elements of `cover` (may be null) are not read.
+    /// `nodes` and the level for levelGradient(). Solid elements of `cover` (may be null) are not read. distance: of the nodes from the surface, read from cell means [m],
+    /// null: not known; it decides about cells whose neighbours disagree by the values at the nodes.
     void build(const std::vector<double>& alpha, const std::vector<int>& elements, const std::vector<int>& nodes,
-        const Cover* cover);
+        const Cover* cover, const std::vector<double>* distance);
 
     ProfileKind kind(int node) const { return kind_[node]; }
     const NodeProfile& profile(int node) const { return profile_[node]; }   ///< of a front, roof or film
@@ -95,6 +96,7 @@ private:
     struct Ring { int size, node[maxRing], count[maxRing]; };
 
     template<int dim> void sumNormals(const std::vector<double>& alpha, const std::vector<int>& elements, const Cover* cover);
+    template<int dim> bool agreesByMeans(int i, const std::vector<double>& alpha, const Cover* cover);
     template<int dim> void fillFront(int i, double alpha);
     template<int dim> void bendFront(const Ring& ring, const std::vector<double>& alpha);
     template<int dim> static void setBend(NodeProfile& p, const double* curvature, const double (&axes)[dim][dim], double factor);
@@ -107,6 +109,7 @@ private:
     template<int dim> void build(const std::vector<double>& alpha, const std::vector<int>& elements,
         const std::vector<int>& nodes, const Cover* cover);
 
+    const std::vector<double>* distance_ = nullptr; // during build()
     const SimplexMesh& mesh_;
     const NodeGraph& graph_;
     const DualCells& cells_;

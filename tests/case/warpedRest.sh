@@ -101,6 +101,7 @@ PY
 
 for case in bed polyhedra; do
     cp -r $case $case.profile
+    [ $case = bed ] || fixedSteps $case.profile 0.01 3 300 # cells that have no front for the transport let a motion grow: before 1e-5 m/s in the water, 8e-5 in the gas
     (cd $case.profile && quietly setExprFields && solve 1) || exit
     (cd $case && quietly setAlphaField) || exit
     cp -r $case $case.two
@@ -124,6 +125,8 @@ for case in sorted(glob.glob("bed*") + glob.glob("polyhedra*")):
     # from fractions 6e-5 m/s are left on polyhedra, before 5e-4 and more; why is not known
     if speed[isWater].max() > (2e-4 if case in ("polyhedra", "polyhedra.two") else 1e-5):
         failed.append(case)
+    if case == "polyhedra.profile" and (speed[isWater].max() > 2e-6 or speed[~isWater].max() > 2e-5):
+        failed.append(case + " (after 3 s)")
 if failed:
     sys.exit(f"FAILED: water at rest moves in {', '.join(failed)}")
 PY
