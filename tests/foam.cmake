@@ -12,5 +12,7 @@ flotsam_test(variableHeight verification SOURCES verification/variableHeight.C L
 flotsam_test(foamFields unit SOURCES unit/foamFields.C LIBRARIES flotsam_foam_test RANKS 1 2)
 flotsam_test(foamWriteTimes unit SOURCES unit/foamWriteTimes.C LIBRARIES flotsam_foam_test)
 flotsam_test(foamBodies unit SOURCES unit/foamBodies.C LIBRARIES flotsam_foam_test flotsam_dem_foam RANKS 1 2)
+flotsam_test(foamContactSpheres unit SOURCES unit/foamContactSpheres.C LIBRARIES flotsam_foam_test flotsam_dem_foam RANKS 1 2)
+flotsam_test(foamPlacement unit SOURCES unit/foamPlacement.C LIBRARIES flotsam_foam_test flotsam_dem_foam RANKS 1 2)
 flotsam_test(foamBodiesMessages unit SOURCES unit/foamBodiesMessages.C LIBRARIES flotsam_foam_test flotsam_dem_foam RANKS 1 2)
 flotsam_test(foamCaseCheck unit SOURCES unit/foamCaseCheck.C LIBRARIES flotsam_foam_test)

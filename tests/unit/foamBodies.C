@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// constant/bodies: shapes, mass and inertia, members, placement, walls.
-#include "demCoupling/foam/bodyPlacement.hpp"
+/// constant/bodies: shapes, mass and inertia, members, structures, walls. Spheres: foamContactSpheres.C; places: foamPlacement.C.
 #include "demCoupling/foam/structureChecks.H"
 #include "support/bodiesScene.H"
 #include "support/near.hpp"
 
 #include <doctest/doctest.h>
 
-#include <array>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 
 using namespace flotsam;
 
@@ -41,114 +37,6 @@ TEST_CASE("walls and mirror planes stop bodies where nothing else is said")
         CHECK(walls({{"system/blockMeshDict", "outlet { type patch;", "outlet { type " + type + ";"}, {"0/U", "outlet { type zeroGradient; }", mirror},
             {"0/alpha.water", "outlet { type zeroGradient; }", mirror}, {"0/p_rgh", "outlet { type fixedValue; value uniform 7; }", mirror}}) == both);
     }
-}
-
-/// An STL file of what turns round the x axis, twelve-sided: (x, radius) from end to end.
-void writeTurned(const std::string& file, const std::vector<std::array<double, 2>>& profile)
-{
-    constexpr int n = 12;
-    std::ofstream out(file);
-    out << "solid turned\n";
-    const auto at = [&](std::size_t k, int j) { return Vec3(profile[k][0], profile[k][1]*std::cos(2*M_PI*(j % n)/n), profile[k][1]*std::sin(2*M_PI*(j % n)/n)); };
-    const auto facet = [&](const Vec3& a, const Vec3& b, const Vec3& c)
-    {
-        out << "facet normal 0 0 0\nouter loop\n";
-        for (const Vec3& x : {a, b, c}) out << "vertex " << x[0] << ' ' << x[1] << ' ' << x[2] << '\n';
-        out << "endloop\nendfacet\n";
-    };
-    const std::size_t last = profile.size() - 1;
-    for (int j = 0; j < n; ++j)
-    {
-        facet(Vec3(profile[0][0], 0, 0), at(0, j + 1), at(0, j));
-        facet(Vec3(profile[last][0], 0, 0), at(last, j), at(last, j + 1));
-        for (std::size_t k = 0; k < last; ++k)
-        {
-            facet(at(k, j), at(k, j + 1), at(k + 1, j + 1));
-            facet(at(k, j), at(k + 1, j + 1), at(k + 1, j));
-        }
-    }
-    out << "endsolid turned\n";
-}
-
-TEST_CASE("the trunk of an STL log with a root wad has contact spheres all along")
-{
-    BodiesScene s;
-    const std::string folder = s.foam.folder() + "/constant/triSurface/";
-    if (s.halo.rank() == 0)
-    {
-        std::filesystem::create_directories(folder);
-        writeTurned(folder + "log.stl", {{{0, 0.08}}, {{0.04, 0.08}}, {{0.04, 0.02}}, {{0.4, 0.02}}});
-        writeTurned(folder + "drum.stl", {{{0, 0.08}}, {{0.16, 0.08}}});
-    }
-    MPI_Barrier(MPI_COMM_WORLD);
-    const auto read = [&](const std::string& file) { return s.read(bodies("shape { type stl; file \"" + file + "\"; } density 600; position (0.5 0.5 0.2);")).bodies[0]; };
-    const BodyDefinition log = read("log.stl");
-    CHECK(log.thinnest < 0.08);
-    CHECK(log.thinnest > 0.02);
-    double longest = 0;     // way along the trunk to the next sphere
-    for (double x = 0.05; x <= 0.4; x += 0.01)
-    {
-        double nearest = 1e300;
-        for (const SurfaceSphere& sphere : log.spheres) // at x along the log in the frame of the file
-            nearest = std::min(nearest, std::abs((log.pose.orientation*sphere.centre + log.pose.position)[0] - 0.5 - x) - sphere.radius);
-        longest = std::max(longest, nearest);
-    }
-    CHECK(longest < 0.01);
-    CHECK(read("drum.stl").thinnest == near(0.16, 0.02*0.16)); // stout ones keep theirs
-}
-
-/// Whether a ball of that radius inside the shape touches the surface at x: no edge.
-bool isFlat(const Shape& shape, const Vec3& x, double radius)
-{
-    Vec3 normal;
-    for (int d = 0; d < 3; ++d) normal[d] = shape.distance(x + 1e-6*Vec3::Unit(d)) - shape.distance(x - 1e-6*Vec3::Unit(d));
-    return shape.distance(x - radius*normal.normalized()) < -radius*(1 - 1e-4);
-}
-
-TEST_CASE("the spheres of a thin body do not get between those of a thick one")
-{
-    BodiesScene s;
-    const std::vector<std::string> thick{"type box; size (0.3 0.1 0.12);", "type cylinder; end1 (-0.15 0 0); end2 (0.15 0 0); radius 0.05;",
-        "type union; parts { a { type box; size (0.3 0.1 0.1); } b { type box; size (0.1 0.25 0.1); } }",
-        "type union; parts { trunk { type cylinder; end1 (0 0 0); end2 (0.4 0 0); radius 0.05; } wad { type cylinder; end1 (0 0 0); end2 (0.1 0 0); radius 0.15; } }"};
-    for (const std::string& shape : thick)
-        for (const double thinner : {1.0, 1.5, 2.0, 4.0, 7.0})
-        {
-            CAPTURE(shape);
-            CAPTURE(thinner);
-            const BodiesInput input = s.read("bodies { thick { shape { " + shape + " } density 600; position (1 0.5 0.2); } thin { shape { type box; size (0.2 "
-                + std::to_string(0.1/thinner) + " 0.1); } density 600; position (0.3 0.5 0.2); } }");
-            const BodyDefinition& body = input.bodies[0];
-            const double radius = input.bodies[1].spheres[0].radius;
-            double farthest = 0; // from a point of the surface, where the centre of a sphere would enter, to the nearest sphere of the thick body; over both radii
-            for (const Vec3& x : pointsOnSurface(body.shape->surface(0.01), 0.003))
-            {
-                if (!isFlat(*body.shape, x, body.spheres[0].radius)) continue;
-                double nearest = 1e300;
-                for (const SurfaceSphere& b : body.spheres) nearest = std::min(nearest, (x - b.centre).norm()/(b.radius + radius));
-                farthest = std::max(farthest, nearest);
-            }
-            CHECK(farthest < 1);
-        }
-}
-
-TEST_CASE("spheres of a union are as fine as its thinnest part demands")
-{
-    BodiesScene s;
-    const auto finest = [&](const std::string& shape)
-    {
-        const BodiesInput input = s.read(bodies("shape { " + shape + " } density 600; position (1 0.5 0.2);"));
-        double radius = 1e300;
-        for (const SurfaceSphere& sphere : input.bodies[0].spheres) radius = std::min(radius, sphere.radius);
-        return radius;
-    };
-    const std::string trunk = "type cylinder; end1 (0 0 0); end2 (0.3 0 0); radius 0.02;", wad = "type cylinder; end1 (-0.1 0 0); end2 (0.1 0 0); radius 0.1;";
-    CHECK(finest(trunk) == near(0.01, 1e-14));
-    CHECK(finest(wad) == near(0.05, 1e-14));
-    CHECK(finest("type union; parts { a { " + trunk + " } b { " + wad + " } }") == near(0.01, 1e-14));
-    // a root that points aslant: its bounding box is no measure of its thickness
-    CHECK(finest("type union; parts { a { type cylinder; end1 (0 0 0); end2 (0.1 0.1 0.1); radius 0.02; } b { " + wad + " } }") == near(0.01, 1e-14));
-    CHECK(has(s.message(bodies("shape { type union; parts { a { " + trunk + " } b { " + wad + " } } } density 600; spheres { radius 0.03; }")), "smallest extent is 0.04 m"));
 }
 
 TEST_CASE("the thinnest body, and the thinnest of those that the cut does not see between the nodes")
@@ -254,97 +142,6 @@ TEST_CASE("poses: what one does not give is the group's")
     CHECK(input.bodies[1].motion.velocity == Vec3(0, 2, 0));
     CHECK(input.bodies[1].releaseTime == 3);
     CHECK(input.bodies[1].name == "bar.1");
-}
-
-TEST_CASE("random places: inside the box, apart, the same for the same seed")
-{
-    BodiesScene s;
-    const auto contents = [](int seed, const std::string& orientation)
-    {
-        return "structures { post { shape { type cylinder; end1 (0.5 0 0.2); end2 (0.5 1 0.2); radius 0.05; } } }"
-            + bodies(bar + "random { count 20; box ((0.1 0.02 0.02) (1 0.9 0.38)); seed " + std::to_string(seed) + "; minGap 0.005; orientation " + orientation
-                + "; release { from 1; interval 0.5; } }");
-    };
-    const BodiesInput input = s.read(contents(3, "random"));
-    REQUIRE(input.bodies.size() == 20);
-    CHECK(input.bodies[4].releaseTime == 3);
-    const auto sampled = std::make_shared<SampledShape>(input.bodies[0].shape, 0.005);
-    for (std::size_t i = 0; i < input.bodies.size(); ++i)
-    {
-        const ShapeAtPose a{"", sampled, input.bodies[i].pose};
-        const auto box = a.spaceBounds();
-        for (int d = 0; d < 3; ++d)
-        {
-            CHECK(box[0][d] >= Vec3(0.1, 0.02, 0.02)[d] - 1e-12);
-            CHECK(box[1][d] <= Vec3(1, 0.9, 0.38)[d] + 1e-12);
-        }
-        for (const Vec3& p : sampled->points())
-            CHECK(input.structures[0].solid.distance(a.pose.orientation*p + a.pose.position) >= 0.005 - 1e-9);
-        for (std::size_t j = 0; j < i; ++j) CHECK(gap(a, {"", sampled, input.bodies[j].pose}, 0.01) >= 0.004);
-    }
-    const BodiesInput again = s.read(contents(3, "random")), other = s.read(contents(4, "uniformYaw"));
-    CHECK(again.bodies[7].pose.position == input.bodies[7].pose.position);
-    CHECK(other.bodies[7].pose.position != input.bodies[7].pose.position);
-    for (const auto& b : other.bodies) CHECK(std::abs((b.pose.orientation*Vec3::UnitX()).y()) < 1e-12); // yaw about y, which is up
-}
-
-TEST_CASE("bodies that come in at their release may have one place; structures and walls must be out of it")
-{
-    BodiesScene s;
-    const std::string absent = bar + "beforeRelease absent; ", at = "position (0.5 0.5 0.2); ";
-    const BodiesInput input = s.read(bodies(absent + "poses ( { position (0.5 0.5 0.2); releaseTime 1; } { position (0.5 0.5 0.2); releaseTime 2; } );"));
-    REQUIRE(input.bodies.size() == 2);
-    for (const BodyDefinition& body : input.bodies) CHECK(body.entersAtRelease);
-    CHECK(!s.read(bodies(bar + at)).bodies[0].entersAtRelease);
-    const BodiesInput stream = s.read(bodies(absent + "random { count 200; box ((0.3 0.4 0.1) (0.6 0.5 0.3)); orientation uniformYaw; release { from 1; interval 0.5; } }"));
-    CHECK(stream.bodies.size() == 200);
-    CHECK(s.message("structures { post { shape { type cylinder; end1 (0.5 0 0.2); end2 (0.5 1 0.2); radius 0.05; } } }" + bodies(absent + at)).find("into structure post")
-        != std::string::npos);
-    CHECK(s.message(bodies(absent + "position (0.5 0.005 0.2);")).find("wall floor") != std::string::npos);
-    CHECK(s.message(bodies(bar + at + "beforeRelease abesnt;")).find("Did you mean: absent") != std::string::npos);
-}
-
-TEST_CASE("gaps of placed shapes")
-{
-    const auto box = std::make_shared<SampledShape>(makeBox(Vec3::Zero(), Vec3(1, 0.1, 0.1)), 0.02);
-    const Pose crossed{Vec3(0, 0, 0.15), Eigen::Quaterniond(Eigen::AngleAxisd(M_PI/2, Vec3::UnitZ()))};
-    CHECK(gap({"", box, {}}, {"", box, crossed}, 1) == near(0.05, 1e-14));
-    const Pose through{Vec3(0, 0, 0.08), crossed.orientation};
-    CHECK(gap({"", box, {}}, {"", box, through}, 1) == near(-0.02, 1e-14));
-    CHECK(gap({"", box, {}}, {"", box, {Vec3(9, 0, 0), {1, 0, 0, 0}}}, 0.5) == 0.5);
-    CHECK(gap({"", box, {}}, {"", box, {}}, 0) == near(-0.05, 1e-14)); // in the same place: no point of a surface is inside the other
-    CHECK(gap({"", box, {}}, {"", box, {Vec3(0, 0, 0.1), {1, 0, 0, 0}}}, 0) == within(0, 1e-17));
-}
-
-TEST_CASE("a place is free where nothing conflicts with it")
-{
-    const auto box = std::make_shared<SampledShape>(makeBox(Vec3::Zero(), Vec3(1, 0.1, 0.1)), 0.02);
-    Obstacles obstacles;
-    obstacles.box = {Vec3(-2, -2, -2), Vec3(2, 2, 2)};
-    obstacles.planes = {{"floor", Vec3(0, 0, -1), Vec3::UnitZ()}};
-    obstacles.bodies = {{"first", box, {}}, {"second", box, {Vec3(0, 0.5, 0), {1, 0, 0, 0}}}};
-    RandomNumbers numbers(1);
-    int nFree = 0, nTaken = 0;
-    for (int i = 0; i < 200; ++i)
-    {
-        const Vec3 place(2*numbers.uniform() - 1, 2*numbers.uniform() - 1, 2.4*numbers.uniform() - 1.2);
-        const ShapeAtPose body{"", box, {place, numbers.rotation()}};
-        const bool isFree = isPlaceFree(body, obstacles, 0.01);
-        CHECK(isFree == !findConflict(body, obstacles, 0.01));
-        ++(isFree ? nFree : nTaken);
-    }
-    CHECK(nFree > 20);
-    CHECK(nTaken > 20);
-}
-
-TEST_CASE("points of narrow triangles")
-{
-    TriSurface strip;
-    strip.points = {Vec3(0, 0, 0), Vec3(0, 0.01, 0), Vec3(1, 0, 0)};
-    strip.triangles = {{0, 1, 2}};
-    const std::vector<Vec3> points = pointsOnSurface(strip, 0.02);
-    CHECK(points.size() > 100);     // both long edges
-    CHECK(points.size() < 120);
 }
 
 TEST_CASE("structures that overlap, touch, or lie in others")
