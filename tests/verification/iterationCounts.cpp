@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 #include <vector>
 
 using namespace flotsam;
@@ -90,8 +91,8 @@ std::vector<std::vector<Counts>> table(int dim, const std::vector<int>& sizes)
     return rows;
 }
 
-/// Largest count over the smallest of all rows.
-double spread(const std::vector<std::vector<Counts>>& rows, int nRatios)
+/// Smallest and largest count from zero of all rows, with their first ratios.
+std::pair<int, int> extremes(const std::vector<std::vector<Counts>>& rows, int nRatios)
 {
     int least = unsolved, most = 0;
     for (const std::vector<Counts>& row : rows)
@@ -100,6 +101,12 @@ double spread(const std::vector<std::vector<Counts>>& rows, int nRatios)
             least = std::min(least, row[k].fromZero);
             most = std::max(most, row[k].fromZero);
         }
+    return {least, most};
+}
+
+double spread(const std::vector<std::vector<Counts>>& rows, int nRatios)
+{
+    const auto [least, most] = extremes(rows, nRatios);
     return double(most)/least;
 }
 
@@ -107,8 +114,12 @@ double spread(const std::vector<std::vector<Counts>>& rows, int nRatios)
 
 TEST_CASE("iterations are the same on all meshes and at all density ratios")
 {
-    CHECK(spread(table(2, {32, 64, 100}), 5) < 1.5);
-    CHECK(spread(table(3, {16, 22, 32}), 5) < 1.5);
+    const auto plane = table(2, {32, 64, 100}), space = table(3, {16, 22, 32});
+    CHECK(spread(plane, 5) < 1.5);
+    CHECK(spread(space, 5) < 1.5);
+    // up to a density ratio of 1000; 23 and 24 without what is added for rough pressures and without damping of the velocity blocks
+    CHECK(extremes(plane, 4).second < 22);
+    CHECK(extremes(space, 4).second < 22);
 }
 // Grad-div beside the surface in gas of a ten-thousandth of the density, see docs/numerics/5-linear-solver.md, 5.1
 TEST_CASE("on very coarse ones in 3D up to a density ratio of 1000; twice as many at 10,000")
