@@ -8,6 +8,7 @@ flotsam_test(demWalls unit SOURCES unit/demWalls.cpp ${dem_support} LIBRARIES fl
 flotsam_test(demMovers unit SOURCES unit/demMovers.cpp ${dem_support} LIBRARIES flotsam_liggghts)
 flotsam_test(demMotion verification SOURCES verification/demMotion.cpp ${dem_support} LIBRARIES flotsam_liggghts)
 flotsam_test(demContact verification SOURCES verification/demContact.cpp ${dem_support} LIBRARIES flotsam_liggghts)
+flotsam_test(couplingRecord unit SOURCES unit/couplingRecord.cpp LIBRARIES flotsam_coupling)
 flotsam_test(motionCheck unit SOURCES unit/motionCheck.cpp LIBRARIES flotsam_coupling)
 flotsam_test(smoothMotion unit SOURCES unit/smoothMotion.cpp LIBRARIES flotsam_coupling)
 flotsam_test(entryCheck unit SOURCES unit/entryCheck.cpp LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)

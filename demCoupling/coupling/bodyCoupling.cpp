@@ -20,36 +20,10 @@ std::vector<Load> difference(const std::vector<Load>& a, const std::vector<Load>
 /// With the last load alone what the tolerance lets pass grows faster (docs/contact.md).
 Load mean(const Load& a, const Load& b) { return {0.5*(a.force + b.force), 0.5*(a.moment + b.moment)}; }
 
-constexpr int perBody = 7 + 6 + 3 + 6 + 1; // pose, motion, angular momentum, contact load, contact count
-constexpr int perWall = 6 + 1;              // contact load, contact count
-
-void put(double*& at, const Vec3& v) { for (int d = 0; d < 3; ++d) *at++ = v[d]; }
-void get(const double*& at, Vec3& v) { for (int d = 0; d < 3; ++d) v[d] = *at++; }
-
-void put(double*& at, const BodyState& s)
-{
-    put(at, s.pose.position);
-    const Eigen::Quaterniond& q = s.pose.orientation;
-    for (double c : {q.w(), q.x(), q.y(), q.z()}) *at++ = c;
-    put(at, s.motion.velocity);
-    put(at, s.motion.angularVelocity);
-    put(at, s.angularMomentum);
-}
-
-void get(const double*& at, BodyState& s)
-{
-    get(at, s.pose.position);
-    s.pose.orientation = Eigen::Quaterniond(at[0], at[1], at[2], at[3]);
-    at += 4;
-    get(at, s.motion.velocity);
-    get(at, s.motion.angularVelocity);
-    get(at, s.angularMomentum);
-}
-
 } // namespace
 
 BodyCoupling::BodyCoupling(const DemSetup& setup, const CouplingControls& controls, MPI_Comm comm)
-:   setup_(setup), controls_(controls), comm_(comm), iteration_(setup.bodies, controls), inertia_(setup.bodies, controls),
+:   setup_(setup), controls_(controls), comm_(comm), touch_(setup), iteration_(setup.bodies, controls), inertia_(setup.bodies, controls),
     check_(setup.bodies, setup.walls)
 {
     MPI_Comm_rank(comm, &rank_);
@@ -58,9 +32,6 @@ BodyCoupling::BodyCoupling(const DemSetup& setup, const CouplingControls& contro
     newContact_.resize(n);
     contact_.resize(n);
     smoothing_.resize(n);
-    touch_.wallLoads.resize(nWalls());
-    touch_.counts.assign(n, 0);
-    touch_.wallCounts.assign(nWalls(), 0);
     isJustReleased_.assign(n, 0);
     for (const BodyDefinition& body : setup.bodies)
     {
@@ -102,81 +73,18 @@ void BodyCoupling::guarded(const std::function<void()>& work) const
 
 void BodyCoupling::shareResults()
 {
-    const int n = nBodies(), walls = nWalls();
-    std::vector<double> buffer(std::size_t(n)*perBody + perWall*walls + 4);
-    if (rank_ == 0)
+    const auto passResults = [this](auto& archive)
     {
-        double* at = buffer.data();
-        for (int b = 0; b < n; ++b)
-        {
-            put(at, result_[b]);
-            put(at, newContact_[b].force);
-            put(at, newContact_[b].moment);
-            *at++ = touch_.counts[b];
-        }
-        for (int w = 0; w < walls; ++w)
-        {
-            put(at, touch_.wallLoads[w].force);
-            put(at, touch_.wallLoads[w].moment);
-            *at++ = touch_.wallCounts[w];
-        }
-        for (int number : {touch_.deepestBody, touch_.deepestOther, touch_.pressing}) *at++ = number;
-        *at = touch_.largestOverlap;
-    }
-    MPI_Bcast(buffer.data(), int(buffer.size()), MPI_DOUBLE, 0, comm_);
-    const double* at = buffer.data();
-    for (int b = 0; b < n; ++b)
-    {
-        get(at, result_[b]);
-        get(at, newContact_[b].force);
-        get(at, newContact_[b].moment);
-        touch_.counts[b] = int(*at++);
-    }
-    for (int w = 0; w < walls; ++w)
-    {
-        get(at, touch_.wallLoads[w].force);
-        get(at, touch_.wallLoads[w].moment);
-        touch_.wallCounts[w] = int(*at++);
-    }
-    for (int* number : {&touch_.deepestBody, &touch_.deepestOther, &touch_.pressing}) *number = int(*at++);
-    touch_.largestOverlap = *at;
-}
-
-std::string BodyCoupling::deepestPair() const
-{
-    if (touch_.deepestBody < 0) return "";
-    const int other = touch_.deepestOther, wall = -1 - other;
-    const int mover = wall - int(setup_.walls.size());
-    const std::string name = other >= 0 ? "body " + setup_.bodies[other].name : mover >= 0 ? "structure " + setup_.movers[mover].name : setup_.walls[wall].name;
-    return "body " + setup_.bodies[touch_.deepestBody].name + " and " + name;
-}
-
-std::string BodyCoupling::pressingMover() const { return touch_.pressing < 0 ? "" : setup_.movers[touch_.pressing].name; }
-
-void BodyCoupling::countContacts(const std::vector<Contact>& contacts)
-{
-    std::fill(touch_.counts.begin(), touch_.counts.end(), 0);
-    std::fill(touch_.wallCounts.begin(), touch_.wallCounts.end(), 0);
-    touch_.largestOverlap = 0;
-    touch_.deepestBody = touch_.pressing = -1;
-    double force = 0; // half of the deepest's, then of the movers'
-    for (const Contact& c : contacts)
-    {
-        ++touch_.counts[c.body];
-        ++(c.other >= 0 ? touch_.counts[c.other] : touch_.wallCounts[-1 - c.other]);
-        if (c.overlap <= touch_.largestOverlap) continue;
-        touch_.largestOverlap = c.overlap;
-        touch_.deepestBody = c.body;
-        touch_.deepestOther = c.other;
-        force = 0.5*c.force.norm();
-    }
-    for (const Contact& c : contacts)
-    {
-        const int mover = -1 - c.other - int(setup_.walls.size());
-        if (mover < 0 || touch_.counts[c.body] < 2 || !(c.force.norm() > force)) continue; // alone it pushes its body on
-        force = c.force.norm();
-        touch_.pressing = mover;
-    }
+        pass(archive, result_);
+        pass(archive, newContact_);
+        passSummary(archive, touch_);
+    };
+    NumberWriter writer; // on every rank, for the length
+    passResults(writer);
+    std::vector<double>& numbers = writer.numbers();
+    MPI_Bcast(numbers.data(), int(numbers.size()), MPI_DOUBLE, 0, comm_);
+    NumberReader reader(numbers.data());
+    passResults(reader);
 }
 
 void BodyCoupling::runEngine(double duration, const std::vector<Load>& loads)
@@ -189,7 +97,7 @@ void BodyCoupling::runEngine(double duration, const std::vector<Load>& loads)
         result_ = engine_->states();
         newContact_ = engine_->meanContactLoads();
         touch_.wallLoads = engine_->meanWallLoads();
-        countContacts(engine_->contacts());
+        touch_.take(engine_->contacts(), setup_);
         if (!engine_->hasContact()) newContact_.assign(newContact_.size(), Load()); // round-off of a free flight
     });
     shareResults();
@@ -369,6 +277,12 @@ void BodyCoupling::reject()
     touch_ = touchAtStart_;
 }
 
+CouplingRecord BodyCoupling::record() const
+{
+    return {touch_.wallLoads, lastLoads_, contact_, contactGuess(), inertia_.factors(), smooth_->save(), isHeld_, presence_, touch_.counts, touch_.wallCounts,
+            touch_.largestOverlap};
+}
+
 std::vector<double> BodyCoupling::save() const
 {
     std::vector<double> data;
@@ -377,51 +291,40 @@ std::vector<double> BodyCoupling::save() const
     MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG, 0, comm_);
     data.resize(size);
     MPI_Bcast(data.data(), int(size), MPI_DOUBLE, 0, comm_);
-    for (const auto* loads : {&touch_.wallLoads, &lastLoads_, &contact_, &contactGuess()})
-        for (const Load& l : *loads)
-            for (const Vec3* v : {&l.force, &l.moment}) data.insert(data.end(), v->data(), v->data() + 3);
-    for (const InertiaFactor& f : inertia_.factors()) data.insert(data.end(), {f.mass, f.turn});
-    const std::vector<double> smooth = smooth_->save();
-    data.insert(data.end(), smooth.begin(), smooth.end());
-    data.insert(data.end(), isHeld_.begin(), isHeld_.end());
-    for (const Presence p : presence_) data.push_back(double(p));
-    for (const std::vector<int>* counts : {&touch_.counts, &touch_.wallCounts}) data.insert(data.end(), counts->begin(), counts->end());
-    data.push_back(touch_.largestOverlap);
+    const std::vector<double> numbers = numbersOf(record());
+    data.insert(data.end(), numbers.begin(), numbers.end());
     return data;
 }
 
 void BodyCoupling::restore(const std::vector<double>& data)
 {
-    const std::size_t tail = (3*6 + 2 + SmoothMotion::perBody + 3)*setup_.bodies.size() + std::size_t(perWall)*nWalls() + 1;
+    CouplingRecord stored = record(); // for the lengths
+    const std::size_t tail = numbersOf(stored).size();
     if (data.size() < tail) throw std::runtime_error("restart: the stored state of the bodies is too short for this case");
-    const double* at = data.data() + data.size() - tail;
-    std::vector<Load> guess(lastLoads_.size());
-    Touch touch = touch_;
-    for (auto* loads : {&touch.wallLoads, &lastLoads_, &contact_, &guess})
-        for (Load& l : *loads) { get(at, l.force); get(at, l.moment); }
-    iteration_.setGuess(guess);
-    smoothing_ = difference(guess, contact_);
-    std::vector<InertiaFactor> factors(isHeld_.size());
-    for (InertiaFactor& f : factors) { f.mass = *at++; f.turn = *at++; }
-    inertia_.setFactors(factors);
-    const double* smooth = at;
-    at += SmoothMotion::perBody*isHeld_.size();
-    for (char& flag : isHeld_) flag = char(*at++);
-    for (Presence& p : presence_) p = Presence(char(*at++));
-    for (std::vector<int>* counts : {&touch.counts, &touch.wallCounts})
-        for (int& n : *counts) n = int(*at++);
-    touch.largestOverlap = *at;
+    const std::size_t engineSize = data.size() - tail;
+    NumberReader reader(data.data() + engineSize);
+    passRecord(reader, stored);
+    lastLoads_ = stored.lastLoads;
+    contact_ = stored.contact;
+    iteration_.setGuess(stored.guess);
+    smoothing_ = difference(stored.guess, contact_);
+    inertia_.setFactors(stored.factors);
+    isHeld_ = stored.isHeld;
+    presence_ = stored.presence;
     guarded([&]
     {
         engine_->setHeld(isHeld_);
-        engine_->restore(DemState{std::vector<double>(data.begin(), data.end() - std::ptrdiff_t(tail))});
+        engine_->restore(DemState{std::vector<double>(data.begin(), data.begin() + std::ptrdiff_t(engineSize))});
         result_ = engine_->states();
         newContact_.assign(newContact_.size(), Load());
     });
     shareResults();
-    touch_ = touch;
+    touch_.wallLoads = stored.wallLoads;
+    touch_.counts = stored.counts;
+    touch_.wallCounts = stored.wallCounts;
+    touch_.largestOverlap = stored.largestOverlap;
     states_ = predicted_ = result_;
-    smooth_->restore(states_, smooth);
+    smooth_->restore(states_, stored.smooth.data());
 }
 
 } // namespace flotsam

@@ -17,6 +17,8 @@
 
 #include "demCoupling/coupling/addedInertia.hpp"
 #include "demCoupling/coupling/contactIteration.hpp"
+#include "demCoupling/coupling/contactSummary.hpp"
+#include "demCoupling/coupling/couplingRecord.hpp"
 #include "demCoupling/coupling/motionCheck.hpp"
 #include "demCoupling/coupling/smoothMotion.hpp"
 #include "demCoupling/liggghts/liggghtsEngine.hpp"
@@ -28,9 +30,6 @@
 
 namespace flotsam
 {
-
-/// Whether a body takes part. Numbers: in states to restart from.
-enum class Presence : char { There = 0, Left = 1, Awaited = 2 };
 
 class BodyCoupling
 {
@@ -83,10 +82,8 @@ public:
     int repeats() const { return iteration_.repeats(); } ///< further solves needed in this step
     double mismatch() const { return iteration_.mismatch(); } ///< of the accepted contact, as CouplingControls::tolerance
     double largestOverlap() const { return touch_.largestOverlap; } ///< of DEM surfaces at the end of the last run [m]
-    /// Names of the pair that overlaps so, empty after a restart; and of a structure that moves and presses half as hard at least on a body that touches
-    /// something else, too, "" without: nothing stops it, it clamps the body.
-    std::string deepestPair() const;
-    std::string pressingMover() const;
+    std::string deepestPair() const { return touch_.deepestPair(setup_); }         ///< names, empty after a restart
+    std::string pressingMover() const { return touch_.pressingMover(setup_); }     ///< name of a structure that clamps a body, empty: none
     double demTimeStep() const { return demTimeStep_; }
 
     /// Everything that continues the run exactly, and back. Collective; the same on every rank.
@@ -95,8 +92,8 @@ public:
 
 private:
     void runEngine(double duration, const std::vector<Load>& loads);
-    void countContacts(const std::vector<Contact>& contacts);
     void shareResults();
+    CouplingRecord record() const;
     BodyState drifted(int body) const;
     void predictContacts();
     void hold(const std::vector<char>& isHeld);
@@ -114,13 +111,7 @@ private:
     std::vector<Load> lastLoads_, loads_, newContact_, contact_;
     std::vector<Load> smoothing_, guessAtStart_; // smoothing_: of the guess, what is not contact
     std::vector<InertiaFactor> factorsAtStart_;
-    struct Touch                // of the engine's last run
-    {
-        std::vector<Load> wallLoads;
-        std::vector<int> counts, wallCounts;
-        double largestOverlap = 0;
-        int deepestBody = -1, deepestOther = 0, pressing = -1; // as in Contact; a mover. Not stored: they only serve messages
-    } touch_, touchAtStart_;
+    ContactSummary touch_, touchAtStart_;       // of the engine's last run
     std::vector<char> isHeld_, isJustReleased_;
     std::vector<Presence> presence_;
     ContactIteration iteration_;

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What touches at the end of an engine's run: numbers of contacts, loads on walls, the deepest contact.
+#pragma once
+
+#include "demCoupling/coupling/numberArchive.hpp"
+#include "demCoupling/liggghts/liggghtsEngine.hpp"
+
+#include <string>
+
+namespace flotsam
+{
+
+struct ContactSummary
+{
+    std::vector<Load> wallLoads;        ///< walls, then movers: time means of the run, moments about the origin of space
+    std::vector<int> counts, wallCounts; ///< contacts of each body; bodies that touch each wall
+    double largestOverlap = 0;          ///< of DEM surfaces [m]
+    int deepestBody = -1, deepestOther = 0, pressing = -1; ///< as in Contact; a mover. Not stored: they only serve messages
+
+    ContactSummary() = default;
+    explicit ContactSummary(const DemSetup& setup);
+
+    /// All but the walls' loads.
+    void take(const std::vector<Contact>& contacts, const DemSetup& setup);
+
+    /// Names of the pair that overlaps most, empty when nothing does and after a restart.
+    std::string deepestPair(const DemSetup& setup) const;
+    /// Name of a structure that moves and presses half as hard at least as the deepest contact on a body that touches something else, too, empty without:
+    /// nothing stops it, it clamps the body.
+    std::string pressingMover(const DemSetup& setup) const;
+};
+
+/// What ranks share after a run.
+template <class Archive, class Summary>
+void passSummary(Archive& archive, Summary& summary)
+{
+    pass(archive, summary.wallLoads);
+    pass(archive, summary.counts);
+    pass(archive, summary.wallCounts);
+    pass(archive, summary.largestOverlap);
+    pass(archive, summary.deepestBody);
+    pass(archive, summary.deepestOther);
+    pass(archive, summary.pressing);
+}
+
+} // namespace flotsam

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// What a restart needs of the coupling besides the engine's own state.
+#pragma once
+
+#include "demCoupling/coupling/numberArchive.hpp"
+
+namespace flotsam
+{
+
+/// Whether a body takes part. Numbers: in states to restart from.
+enum class Presence : char { There = 0, Left = 1, Awaited = 2 };
+
+struct CouplingRecord
+{
+    std::vector<Load> wallLoads, lastLoads, contact, guess;
+    std::vector<InertiaFactor> factors;
+    std::vector<double> smooth;     ///< SmoothMotion::save()
+    std::vector<char> isHeld;
+    std::vector<Presence> presence;
+    std::vector<int> counts, wallCounts;
+    double largestOverlap = 0;
+};
+
+/// The order is that of the files: those of earlier versions are read.
+template <class Archive, class Record>
+void passRecord(Archive& archive, Record& record)
+{
+    for (auto* loads : {&record.wallLoads, &record.lastLoads, &record.contact, &record.guess}) pass(archive, *loads);
+    pass(archive, record.factors);
+    pass(archive, record.smooth);
+    pass(archive, record.isHeld);
+    pass(archive, record.presence);
+    pass(archive, record.counts);
+    pass(archive, record.wallCounts);
+    pass(archive, record.largestOverlap);
+}
+
+inline std::vector<double> numbersOf(const CouplingRecord& record)
+{
+    NumberWriter writer;
+    passRecord(writer, record);
+    return writer.numbers();
+}
+
+} // namespace flotsam

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Bodies' states as plain numbers in a fixed order: what is written and what is read is said once, by pass().
+#pragma once
+
+#include "demCoupling/core/rigidBody.hpp"
+
+#include <type_traits>
+#include <vector>
+
+namespace flotsam
+{
+
+class NumberWriter
+{
+public:
+    template <class Number> void number(const Number& value) { numbers_.push_back(static_cast<double>(value)); }
+    std::vector<double>& numbers() { return numbers_; }
+
+private:
+    std::vector<double> numbers_;
+};
+
+/// Of numbers that a NumberWriter has written; as many as are asked for must be there.
+class NumberReader
+{
+public:
+    explicit NumberReader(const double* first) : at_(first) {}
+    template <class Number> void number(Number& value) { value = static_cast<Number>(*at_++); }
+
+private:
+    const double* at_;
+};
+
+/// Numbers, enumerations, what bodies have, and lists of them: lists have their length already.
+template <class Archive, class T>
+void pass(Archive& archive, T& value)
+{
+    using Type = std::remove_const_t<T>;
+    if constexpr (std::is_arithmetic_v<Type> || std::is_enum_v<Type>) archive.number(value);
+    else if constexpr (std::is_same_v<Type, Eigen::Quaterniond>)
+    {
+        archive.number(value.w());
+        for (int d = 0; d < 3; ++d) archive.number(value.coeffs()[d]);
+    }
+    else if constexpr (std::is_same_v<Type, Vec3>)
+        for (int d = 0; d < 3; ++d) archive.number(value[d]);
+    else if constexpr (std::is_same_v<Type, Load>)
+    {
+        pass(archive, value.force);
+        pass(archive, value.moment);
+    }
+    else if constexpr (std::is_same_v<Type, InertiaFactor>)
+    {
+        pass(archive, value.mass);
+        pass(archive, value.turn);
+    }
+    else if constexpr (std::is_same_v<Type, BodyState>)
+    {
+        pass(archive, value.pose.position);
+        pass(archive, value.pose.orientation);
+        pass(archive, value.motion.velocity);
+        pass(archive, value.motion.angularVelocity);
+        pass(archive, value.angularMomentum);
+    }
+    else for (auto& part : value) pass(archive, part);
+}
+
+} // namespace flotsam
