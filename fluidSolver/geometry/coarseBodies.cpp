@@ -16,16 +16,6 @@ namespace
 
 constexpr double unknownThickness = std::numeric_limits<double>::infinity();
 
-/// Smallest extent of the shape [m], not along `across` (unit; zero: along any).
-double extent(const Shape& shape, const Vec3& across)
-{
-    const auto [lower, upper] = shape.bounds();
-    double least = unknownThickness;
-    for (int d = 0; d < 3; ++d)
-        if (std::abs(across[d]) < std::sqrt(0.5)) least = std::min(least, upper[d] - lower[d]);
-    return least;
-}
-
 } // namespace
 
 /// Null: not round. Kept per shape.
@@ -36,11 +26,20 @@ std::shared_ptr<const PlaneFaces> CoverBuilder::facesOfRound(const std::shared_p
     return roundShapes_.emplace_back(RoundShape{shape, makePlaneFaces(*shape)}).faces;
 }
 
+/// Kept per shape: a body in a 2D mesh turns about the mesh's normal, which is the same to it.
+double CoverBuilder::thicknessOfPolyhedron(const std::shared_ptr<const Shape>& shape, const Vec3& across)
+{
+    constexpr double tolerance = 1e-6;
+    for (const Polyhedron& known : polyhedra_)
+        if (known.shape == shape && (known.across - across).norm() < tolerance) return known.thickness;
+    return polyhedra_.emplace_back(Polyhedron{shape, across, planeThickness(*shape, across)}).thickness;
+}
+
 /// Of what can be cut by plane faces [m]; infinite: others. In 2D what is round must stand across the plane: the polyhedron's section is the shape's then.
 double CoverBuilder::thickness(const Solid& solid)
 {
     const Vec3 across = mesh_.dim == 2 ? Vec3(solid.pose.orientation.conjugate() * Vec3::Unit(mesh_.axes[2])) : Vec3(Vec3::Zero());
-    if (solid.shape->hasPlaneFaces()) return extent(*solid.shape, across);
+    if (solid.shape->hasPlaneFaces()) return thicknessOfPolyhedron(solid.shape, across);
     const bool isAlongPlane = mesh_.dim == 2 && std::abs(across.dot(solid.shape->symmetry().axis)) < 1 - 1e-9;
     return facesOfRound(solid.shape) && !isAlongPlane ? roundThickness(*solid.shape) : unknownThickness;
 }

@@ -99,6 +99,13 @@ private:
         std::shared_ptr<const PlaneFaces> faces;    // null: not round
     };
 
+    struct Polyhedron
+    {
+        std::shared_ptr<const Shape> shape;
+        Vec3 across;        // normal of a 2D mesh, in the shape's frame
+        double thickness;
+    };
+
     /// A thin body has a part in an element.
     struct ThinPart { int element, solid; };
 
@@ -109,6 +116,7 @@ private:
     struct Others { int solid[5], n = 0; };
 
     std::shared_ptr<const PlaneFaces> facesOfRound(const std::shared_ptr<const Shape>& shape);
+    double thicknessOfPolyhedron(const std::shared_ptr<const Shape>& shape, const Vec3& across);
     double thickness(const Solid& solid);
     void findThinParts(const std::vector<Solid>& solids);
     const ThinPart* partsIn(int element) const;
@@ -220,6 +228,7 @@ private:
     std::vector<int> aloneFace_;        // nNodes, scratch
     std::vector<KnownVolume> knownVolumes_;
     std::vector<RoundShape> roundShapes_;
+    std::vector<Polyhedron> polyhedra_;
     double longest_ = 0;                // element length of the whole mesh
     std::vector<ThinPart> thinParts_;   // by element
     std::vector<int> thinElements_;     // with thin parts or nodes nearest to thin bodies

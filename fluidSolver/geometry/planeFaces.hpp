@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What is cut in place of a round shape where elements are too coarse for it.
-///
-/// A linear cut knows a shape by its distance at the nodes: of what is thinner than an element it may see nothing. Plane faces are cut exactly whatever the elements' size.
+/// Polyhedra: plane faces are cut exactly, whatever the elements' size. Shapes that are some, and what is cut in place of a round shape where elements are too coarse for it:
+/// a linear cut knows a shape by its distance at the nodes, and of what is thinner than an element it may see nothing.
 #pragma once
 
 #include "geometry/shape.hpp"
@@ -26,5 +25,12 @@ double roundThickness(const Shape& shape);
 /// Polyhedron with the shape's volume, centroid and axis: of a cylinder and a capsule a hexagonal prism, of a sphere a dodecahedron. Null for other shapes.
 /// Corners reach up to a fifth of the radius beyond the shape.
 std::shared_ptr<const PlaneFaces> makePlaneFaces(const Shape& shape);
+
+/// Of a closed surface, oriented outwards, that is a convex polyhedron with at most maxFaces faces, to 1e-5 of its size; null for others.
+std::shared_ptr<const PlaneFaces> convexFaces(const TriSurface& surface);
+
+/// Least distance [m] between one of a shape's plane faces (Shape::hasPlaneFaces) and the farthest corner behind it, without the faces that look more along `across`
+/// (unit, in the shape's frame; zero: none) than not: infinite without others.
+double planeThickness(const Shape& shape, const Vec3& across);
 
 } // namespace flotsam

@@ -4,6 +4,7 @@
 #include "equations/faceMoments.hpp"
 #include "support/coverScene.hpp"
 #include "support/near.hpp"
+#include "support/polyhedra.hpp"
 
 #include <doctest/doctest.h>
 
@@ -166,6 +167,26 @@ TEST_CASE("structures at rest that reach through the mesh's boundary keep their 
                 CHECK(hole(cover) < 1e-12);
                 if (turned == 0 && k % 2) CHECK(cover.solidVolume[0] == near((1 + top) * std::pow(width, dim - 1), 1e-12)); // linear: up to 3 and 18 % less
             }
+    }
+}
+
+TEST_CASE("a sill with a ramp from an STL file keeps its edges on the bed and from side to side: exact volume, and closed surfaces up to the boundary")
+{
+    for (const int dim : {2, 3})
+    {
+        const int n = dim == 2 ? 16 : 8;
+        const CoverScene scene(dim, n);
+        CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+        for (int k = 0; k < 12; ++k)
+        {
+            // of the triangle 1.2 x 0.9 the part above the bed y = -1, 0.1 of its height
+            std::vector<Solid> solids = {makeSolid(makeWedge(1.2, 0.9, 2.5), {-0.4 + 0.023 * k, -1.09, 0}, Solid::Kind::Fixed)};
+            solids[0].pose.orientation.setIdentity();
+            CAPTURE(k);
+            const Cover& cover = builder.build(solids);
+            CHECK((dim == 2 ? largestHoleWithBoundary<2>(scene, cover, 2.0 / n) : largestHoleWithBoundary<3>(scene, cover, 2.0 / n)) < 1e-12);
+            CHECK(cover.solidVolume[0] == near(0.5 * 1.2 * 0.9 * 0.81 * (dim == 2 ? 1 : 2), 1e-12));
+        }
     }
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/shape.hpp"
+#include "geometry/planeFaces.hpp"
 #include "support/near.hpp"
+#include "support/polyhedra.hpp"
 
 #include <doctest/doctest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -125,6 +128,60 @@ TEST_CASE("binary STL with scale: a fine capsule has the capsule's distance and 
     for (const Vec3& x : randomPoints(0.8, 2000)) worst = std::max(worst, std::abs(stl->distance(x) - capsule->distance(x)));
     CHECK(worst < 0.02 * 0.02 / 0.3);
     CHECK(stl->moments().volume == near(capsule->moments().volume, 2e-3));
+}
+
+TEST_CASE("the faces of an STL file are those of the convex polyhedron that it is, however many triangles they have")
+{
+    const Eigen::Quaterniond turned(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
+    for (const bool isBinary : {false, true})   // binary: single precision
+        for (const bool isBox : {false, true})
+        {
+            const TemporaryFile file;
+            TriSurface s = isBox ? makeBox({0.1, -0.2, 0.3}, {1, 0.6, 0.4})->surface(1) : wedgeSurface(1, 0.5, 0.7, {-0.3, -0.2, 0.1});
+            for (Vec3& x : s.points) x = turned * x;
+            isBinary ? writeBinary(file.name, s) : writeAscii(file.name, s);
+            const auto stl = makeStl(file.name);
+            CHECK(stl->hasPlaneFaces());
+            double distances[maxFaces], worst = 0;
+            for (const Vec3& x : randomPoints(1, 2000))
+            {
+                REQUIRE(stl->faceDistances(x, distances) == (isBox ? 6 : 5));
+                const double largest = *std::max_element(distances, distances + (isBox ? 6 : 5)), d = stl->distance(x);
+                worst = std::max(worst, d < 0 ? std::abs(largest - d) : largest > d ? largest - d : 0.0);
+                CHECK((largest < 0) == (d < 0));
+            }
+            CHECK(worst < (isBinary ? 1e-6 : 1e-12));
+        }
+}
+
+TEST_CASE("the thickness of a polyhedron is that between its faces, however it lies in its frame; in 2D of the section")
+{
+    const Eigen::Quaterniond turned(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
+    const auto plank = makePlaced(makeBox(Vec3::Zero(), {1, 0.3, 0.02}), turned, {0.3, 0.1, 0});
+    CHECK(planeThickness(*plank, Vec3::Zero()) == near(0.02, 1e-12));
+    CHECK(planeThickness(*plank, turned * Vec3::UnitZ()) == near(0.3, 1e-12));
+    const auto wedge = makeWedge(0.4, 0.3, 0.1);
+    CHECK(planeThickness(*wedge, Vec3::Zero()) == near(0.1, 1e-12));
+    CHECK(planeThickness(*wedge, Vec3::UnitZ()) == near(0.24, 1e-12));   // the triangle's height over its longest side
+}
+
+TEST_CASE("STL files that are not convex or have many faces have none")
+{
+    const TriSurface box = boxFrom({0, 0, 0}, {1, 1, 1});
+    const TriSurface dented = [&]
+    {
+        TriSurface s = wedgeSurface(1, 0.5, 0.7);
+        s.points[3][2] += 1e-3; // the point within one of the ends
+        return s;
+    }();
+    for (const TriSurface& s : {joined({box, boxFrom({2, 0, 0}, {3, 1, 1})}), joined({box, turned(boxFrom({0.2, 0.2, 0.2}, {0.6, 0.6, 0.6}))}), dented,
+             makeCylinder({0, 0, 0}, {0, 0, 1}, 0.3)->surface(0.05)})
+    {
+        const TemporaryFile file;
+        writeAscii(file.name, s);
+        double distances[maxFaces];
+        CHECK(makeStl(file.name)->faceDistances(Vec3::Zero(), distances) == 0);
+    }
 }
 
 TEST_CASE("the sign is right near sharp edges and corners, where face normals fail")

@@ -4,6 +4,7 @@
 #include "support/boxMesh.hpp"
 #include "support/errorTable.hpp"
 #include "support/near.hpp"
+#include "support/polyhedra.hpp"
 
 #include <doctest/doctest.h>
 
@@ -118,6 +119,21 @@ TEST_CASE("boxes at rest inside the mesh are cut exactly")
         const double depth = dim == 2 ? 2 : 0.8; // the 2D mesh has no depth of its own
         const Errors e = meanErrors(dim, 9, makeSolid(makeBox(Vec3::Zero(), {0.9, 0.7, depth})), dim == 2 ? 0.63 : 0.63 * depth,
             dim == 2 ? 3.2 : 2 * (0.63 + 1.6 * depth));
+        CHECK(e.volume < 1e-12);
+        CHECK(e.area < 1e-12);
+        CHECK(e.moment < 1e-12);
+        CHECK(e.centre < 1e-12);
+    }
+}
+
+TEST_CASE("convex polyhedra from STL files are cut exactly")
+{
+    const double length = 0.9, height = 0.7, slope = std::hypot(length, height);
+    for (const int dim : {2, 3})
+    {
+        const double depth = dim == 2 ? 2 : 0.8, section = 0.5 * length * height, round = length + height + slope;
+        const Errors e = meanErrors(dim, 9, makeSolid(makeWedge(length, height, depth, {-length / 3, -height / 3, 0})), dim == 2 ? section : section * depth,
+            dim == 2 ? round : 2 * section + round * depth);
         CHECK(e.volume < 1e-12);
         CHECK(e.area < 1e-12);
         CHECK(e.moment < 1e-12);

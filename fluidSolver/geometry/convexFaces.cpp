@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Which triangulated surfaces are convex polyhedra of few faces: containers, wedges, sills and weirs drawn in a CAD program. Cut by their faces they keep edges and volume.
+#include "geometry/planeFaces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace flotsam
+{
+namespace
+{
+
+/// Over the surface's size: STL files have coordinates of six or seven digits. So much may a corner lie off a plane.
+constexpr double roundOff = 1e-5;
+
+/// A face as it is put together from triangles.
+struct Face
+{
+    Vec3 point, normal;             // of its largest triangle, unit
+    Vec3 area = Vec3::Zero();       // vector, twice
+    double moment = 0;              // sum of twice the areas times the planes' distances from the origin
+
+    double height(const Vec3& x) const { return normal.dot(x - point); }
+};
+
+struct Facet
+{
+    std::array<Vec3, 3> corners;
+    Vec3 area;                      // vector, twice
+};
+
+std::vector<Facet> largestFirst(const TriSurface& surface)
+{
+    std::vector<Facet> facets;
+    for (const auto& t : surface.triangles)
+    {
+        const Vec3 &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
+        facets.push_back({{a, b, c}, (b - a).cross(c - a)});
+    }
+    std::stable_sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) { return a.area.squaredNorm() > b.area.squaredNorm(); });
+    return facets;
+}
+
+/// Empty: more than maxFaces.
+std::vector<Face> joinFacets(const TriSurface& surface, double tolerance)
+{
+    std::vector<Face> faces;
+    for (const Facet& facet : largestFirst(surface))
+    {
+        const double twiceArea = facet.area.norm();
+        if (twiceArea == 0) continue;
+        const auto contains = [&](const Face& face)
+        {
+            return std::all_of(facet.corners.begin(), facet.corners.end(), [&](const Vec3& x) { return std::abs(face.height(x)) < tolerance; });
+        };
+        auto face = std::find_if(faces.begin(), faces.end(), contains);
+        if (face == faces.end())
+        {
+            if (faces.size() == maxFaces) return {};
+            face = faces.insert(faces.end(), Face{facet.corners[0], facet.area / twiceArea, Vec3::Zero(), 0});
+        }
+        face->area += facet.area;
+        face->moment += facet.area.dot(facet.corners[0] + facet.corners[1] + facet.corners[2]) / 3;
+    }
+    return faces;
+}
+
+} // namespace
+
+std::shared_ptr<const PlaneFaces> convexFaces(const TriSurface& surface)
+{
+    Vec3 lower = surface.points[0], upper = lower;
+    for (const Vec3& x : surface.points)
+    {
+        lower = lower.cwiseMin(x);
+        upper = upper.cwiseMax(x);
+    }
+    const double tolerance = roundOff * (upper - lower).norm();
+    const auto result = std::make_shared<PlaneFaces>();
+    for (const Face& face : joinFacets(surface, tolerance))
+    {
+        const double size = face.area.norm();
+        result->planes.push_back({face.area / size, face.moment / size});
+        const PlaneFaces::Plane& plane = result->planes.back();
+        for (const Vec3& x : surface.points)
+            if (!(plane.normal.dot(x) - plane.distance < tolerance)) return nullptr;
+    }
+    return result->planes.empty() ? nullptr : result;
+}
+
+double planeThickness(const Shape& shape, const Vec3& across)
+{
+    const auto [lower, upper] = shape.bounds();
+    const Vec3 centre = 0.5 * (lower + upper);
+    double here[maxFaces], beside[maxFaces], values[maxFaces], deepest[maxFaces] = {};
+    const int n = shape.faceDistances(centre, here);
+    shape.faceDistances(centre + across, beside);
+    for (const Vec3& x : shape.surface((upper - lower).norm()).points)
+    {
+        shape.faceDistances(x, values);
+        for (int f = 0; f < n; ++f) deepest[f] = std::min(deepest[f], values[f]);
+    }
+    double least = std::numeric_limits<double>::infinity();
+    for (int f = 0; f < n; ++f)
+        if (std::abs(beside[f] - here[f]) < std::sqrt(0.5)) least = std::min(least, -deepest[f]);
+    return least;
+}
+
+} // namespace flotsam
