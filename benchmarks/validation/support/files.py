@@ -3,6 +3,8 @@
 import math
 from dataclasses import dataclass
 
+import numpy as np
+
 
 def dictionary(name, body, kind="dictionary"):
     return ("// SPDX-License-Identifier: GPL-3.0-or-later\nFoamFile\n{\n    version     2.0;\n    format      ascii;\n"
@@ -192,3 +194,19 @@ def merged(*parts):
     for part in parts:
         result.update(part)
     return result
+
+
+def stlBox(size):
+    """Text of an ASCII STL file with six digits: a box around the origin, two triangles a side. size: three lengths [m]."""
+    low, high = (np.array(size) * sign / 2 for sign in (-1, 1))
+    text = "solid box\n"
+    for d in range(3):
+        for side, x in ((-1, low[d]), (1, high[d])):
+            u, v = ((d + 1) % 3, (d + 2) % 3)[::side]
+            corners = np.empty((4, 3))
+            corners[:, d] = x
+            corners[:, u] = [low[u], high[u], high[u], low[u]]
+            corners[:, v] = [low[v], low[v], high[v], high[v]]
+            for triangle in ((0, 1, 2), (0, 2, 3)):
+                text += "facet normal 0 0 0\nouter loop\n" + "".join("vertex {:.6g} {:.6g} {:.6g}\n".format(*corners[k]) for k in triangle) + "endloop\nendfacet\n"
+    return text + "endsolid box\n"

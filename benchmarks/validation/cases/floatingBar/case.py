@@ -6,31 +6,45 @@ from runner import foam
 from runner.cases import Run
 from support import floating
 from support.compare import absolute, relative, small
-from support.files import around, blockMesh, bodies, control, even, gravity, level, merged, openTank, twoFluids
+from support.files import around, blockMesh, bodies, control, even, gravity, level, merged, openTank, stlBox, twoFluids
 
 SIDE, END, LAST = 0.02, 5.0, 0.5
 #            width [m], relative density, turn at the start [degrees]
 SECTIONS = {"square 0.59": (0.02, 0.59, 35), "square 0.85": (0.02, 0.85, 25), "square 0.25": (0.02, 0.25, 10), "square 0.15": (0.02, 0.15, 25),
             "plank 2:1 0.59": (0.04, 0.59, 25)}
+FROM_STL = {"square 0.85, STL": "square 0.85"}     # the same bar as a triangulated surface
 
 title = """Bars with a square section of 0.02 m and a plank of 0.04 m x 0.02 m, 2D, named with the relative density, released turned in a liquid of water's density and a thousand times its
 viscosity, at rest after 5 s. Theory: the attitude of least potential energy that the turn at the start leads to, at which the displaced liquid weighs as much as the bar: a square floats on
-a flat side for s < 0.211 and s > 0.789, corner down for 0.281 < s < 0.719 and askew between (E. N. Gilbert, Am. Math. Monthly 98 (1991) 201). N elements over 0.02 m."""
+a flat side for s < 0.211 and s > 0.789, corner down for 0.281 < s < 0.719 and askew between (E. N. Gilbert, Am. Math. Monthly 98 (1991) 201). N elements over 0.02 m. "STL": the bar is read from
+an STL file."""
 
-runs = [Run("flotsamFoam", n, name, quick=(n == 6 and name == "square 0.59"), timeLimit=2400) for n in (6, 10) for name in SECTIONS]
+runs = [Run("flotsamFoam", n, name, quick=(n == 6 and name == "square 0.59"), timeLimit=2400) for n in (6, 10) for name in [*SECTIONS, *FROM_STL]]
 
 
 def resolution(run):
     return f"{run.n} over 0.02 m"
 
 
+def section(run):
+    return SECTIONS[FROM_STL.get(run.variant, run.variant)]
+
+
+def shape(run, width):
+    if run.variant in FROM_STL:
+        return {"constant/triSurface/bar.stl": stlBox((width, SIDE, 0.05))}, 'type stl; file "bar.stl";'
+    return {}, f"type box; size ({width:g} {SIDE:g} 0.05);"
+
+
 def files(run, _folder):
-    width, density, turn = SECTIONS[run.variant]
+    width, density, turn = section(run)
+    shapeFiles, shapeEntries = shape(run, width)
     h = SIDE / run.n
     x = around(-0.2, -0.04, 0.04, 0.2, h, 1.04)
     y = around(-0.1, -0.03, 0.03, 0.06, h, 1.2)
     depth = floating.equilibrium(width, SIDE, density, np.radians(turn))[1]
     return merged(
+        shapeFiles,
         blockMesh(x, y, even(0, 0.05, 1), {"walls": ("wall", "x- x+ y-"), "atmosphere": ("patch", "y+"), "frontAndBack": ("empty", "z- z+")}),
         openTank("noSlip", empty=["frontAndBack"]),
         level("(0 1 0)"),
@@ -39,7 +53,7 @@ def files(run, _folder):
 {{
     bar
     {{
-        shape       {{ type box; size ({width:g} {SIDE:g} 0.05); }}
+        shape       {{ {shapeEntries} }}
         density     {1000 * density:g};
         position    (0 {0.002 - depth:.6g} 0.025);
         orientation {{ axis (0 0 1); angleDeg {turn:g}; }}
@@ -58,7 +72,7 @@ def prepare(_run, do):
 
 
 def errors(run, case):
-    width, density, turn = SECTIONS[run.variant]
+    width, density, turn = section(run)
     history, flotsam = foam.history(root, case), foam.resultReader(root)        # noqa: F821 (root is set by the runner)
     angle, depth = floating.equilibrium(width, SIDE, density, np.radians(turn))
     q, centre = (history.mean("bar", name, END - LAST) for name in ("orientation", "position"))
