@@ -324,13 +324,15 @@ TEST_CASE("bodies thinner than an element that touch cut out their volumes, and 
     CHECK(missing < 1e-10);
 }
 
-TEST_CASE("round bodies thinner than an element have their volume and centre, whatever frame they are given in")
+TEST_CASE("round bodies and polyhedra thinner than an element have their volume and centre, whatever frame they are given in")
 {
     const CoverScene scene(3, 12);
     CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
     const double r = 0.3 * 2 / 12;
     const Eigen::Quaterniond turned(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
-    for (const auto& shape : {makeSphere(Vec3::Zero(), r), makeCapsule({-0.2, 0, 0}, {0.2, 0, 0}, r), makeCylinder({0, -0.2, 0}, {0, 0.2, 0}, r),
+    TriSurface plank = makeBox(Vec3::Zero(), {1.2 * r, 0.4, 0.3})->surface(1);  // thin by its faces only: its bounds are not
+    for (Vec3& x : plank.points) x = turned * x;
+    for (const auto& shape : {makeClosedSurface(plank), makeSphere(Vec3::Zero(), r), makeCapsule({-0.2, 0, 0}, {0.2, 0, 0}, r), makeCylinder({0, -0.2, 0}, {0, 0.2, 0}, r),
              makePlaced(makeCylinder({0.1, 0, -0.2}, {0.1, 0, 0.2}, r), turned, -(turned * Vec3(0.1, 0, 0)))})
     {
         std::vector<Solid> solids = {makeSolid(shape, {0.03, -0.02, 0.04}, Solid::Kind::Free)};
