@@ -24,11 +24,11 @@ void leaveOut(unsigned beyond, double onFace, double* distances, int n)
 } // namespace
 
 /// A structure that moves through the mesh's boundary is cut linearly, as the boundary's faces there are. What is at rest is sharp wherever it lies, and so are the faces of the boundary at its
-/// edges (Cover::patchFaces). A free body stays sharp on its way out: its cut, and with it its weight in the water, must not jump; only the fluid part of an open boundary's
-/// faces at its edges is then not exact. So do thin solids, of which linear cuts see too little (coarseBodies.cpp).
+/// edges (Cover::patchFaces). A body stays sharp on its way out and when it is let go that was held: its cut, and with it its weight in the water, must not jump; only the fluid part of an open
+/// boundary's faces at its edges is then not exact. So do thin solids, of which linear cuts see too little (coarseBodies.cpp).
 bool CoverBuilder::isSharp(const Solid& solid) const
 {
-    if (solid.kind != Solid::Kind::Prescribed || solid.isThin) return true;
+    if (solid.kind != Solid::Kind::Prescribed || solid.isLoose || solid.isThin) return true;
     Solid plain = solid; // the answer decides about the offsets: it must not depend on them
     plain.offset = 0;
     plain.offsetSlope.setZero();
