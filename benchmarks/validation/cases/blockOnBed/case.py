@@ -14,7 +14,7 @@ BANDS = {"cube": (0.2, 0.6), "slab": (0.2, 0.6), "log": (0.6, 1.0), "joined cube
 # length along and across the stream in heights; round: a cylinder across
 SHAPES = {"cube": (1, 1, False), "slab": (2, 2, False), "log": (1, 4, True), "bar 2D": (1, 0, False), "log 2D": (1, 0, True), "joined cube": (1, 1, False)}
 
-title = f"""A body of {HEIGHT:g} m height held on the slip bed of a channel, {WIDTH} heights wide, {DEPTH} deep, slip sides and lid, one fluid, rho {DENSITY}, nu {NU:g}, {SPEED:g} m/s all over the depth: a cube, a slab of 2 x 2 heights and a round log of 4
+title = f"""A body of {HEIGHT:g} m height held on the slip bed of a channel, {WIDTH} heights wide (log: {2 * WIDTH}), {DEPTH} deep (2D: 10), slip sides and lid, one fluid, rho {DENSITY}, nu {NU:g}, {SPEED:g} m/s all over the depth: a cube, a slab of 2 x 2 heights and a round log of 4
 heights across the stream in 3D, a square and a round bar in 2D. "joined cube" is a structure, which is joined to the bed: there is no pressure under it, its vertical force (less the weight of the water that it displaces) is the suction on its top.
 Coefficients of 1/2 rho U^2: drag of the area across the stream, lift (force of the water less that at rest) of the area seen from above; means from {BEGIN:g} to {END:g} s. Published drag of cubes: Schmeeckle, Nelson & Shreve 2007
 (doi 10.1029/2006JF000536, abstract), 1.36. Bands of the lift are what handbooks and reviews give, as recalled, not read: blocks 0.2 to 0.6, pipes and logs 0.6 to 1.0; suction on a cube's top in a uniform stream (Castro & Robins 1977) 0.6 to 0.8.
