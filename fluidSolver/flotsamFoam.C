@@ -13,6 +13,7 @@
 #include "foam/cellCost.H"
 #include "foam/dictionaryChecks.H"
 #include "foam/fieldIO.H"
+#include "foam/patchReport.H"
 #include "foam/writeTimes.H"
 
 #include "algebra/needlessWork.hpp"
@@ -268,6 +269,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         FlowState state;
         fields.readStart(state);
         checkInflow(adapter, halo, boundary, state, nullptr, runTime.value());
+        reportPatches(controls, adapter, halo, boundary, state, nullptr, runTime.value());
         writeNumerics(Foam::Info, controls.numerics);
     }
     if (task == Task::WeighCells) weighCells(mesh, adapter, halo, bodies);
@@ -280,6 +282,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     start(step, output, fields, runTime);
     if (!bodies.structures.empty())
         reportThinStructures(adapter.mesh, step.fluid().graph(), halo, *step.cover(), bodies, step.scene().solids().size());
+    reportPatches(controls, adapter, halo, boundary, step.fluid().state(), step.cover(), runTime.value());
     WriteTimes writeTimes(runTime, output.firstStart(), output.lastStep());
     output.begin(step);
     mesh.primitiveMesh::clearAddressing();  // cells, edges and the like that only the start needed; the geometry must stay: fields of the fvMesh are slices of it

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "foam/patchReport.H"
+
+#include "equations/patchInflow.hpp"
+#include "foam/dictionaryChecks.H"
+
+#include <cmath>
+
+namespace flotsam
+{
+
+namespace
+{
+
+constexpr double muchGas = 0.1;     // of what enters: where a surface is smeared over elements some enters below it
+
+void say(const std::string& line) { Foam::Info << line.c_str() << Foam::nl; }
+
+void reportInflow(const CaseControls& controls, const BoundaryPatch& patch, const PatchInflow& in)
+{
+    if (in.all == 0) return;
+    const std::string& liquid = controls.liquidName;
+    say(text("Patch ", patch.name, ": ", std::abs(in.all), in.all > 0 ? " m^3/s enter" : " m^3/s leave",
+        controls.fluid.isTwoPhase ? text(", ", std::abs(in.liquid), " of them ", liquid) : ""));
+    if (in.gasAtLiquid <= muchGas*std::abs(in.all)) return;
+    say(text("Warning: patch ", patch.name, " lets in ", in.gasAtLiquid, " m^3/s of gas where ", liquid, " stands at it. Give ", controls.alphaName,
+        " there: variableHeightFlowRate, zeroGradient, or fixedValue 1 below the level (docs/dictionaries.md, Boundary conditions)"));
+}
+
+void reportLevel(const CaseControls& controls, const BoundaryPatch& patch, double level)
+{
+    say(text("Patch ", patch.name, ": ", std::isinf(level) ? text("no ", controls.liquidName, " outside")
+                                                           : text("pressure of ", controls.liquidName, " outside up to a height of ", level, " m")));
+}
+
+} // namespace
+
+void reportPatches(const CaseControls& controls, const MeshAdapter& adapter, const Halo& halo, const std::vector<BoundaryPatch>& patches, const FlowState& state,
+    const Cover* cover, double time)
+{
+    const SimplexMesh& mesh = adapter.mesh;
+    for (const BoundaryPatch& patch : patches)
+    {
+        if (patch.velocity != BoundaryPatch::Velocity::Fixed || !patch.evaluate) continue;
+        PatchValues values;
+        patch.evaluate({time, state.u.data(), state.alpha.data(), cover}, values);
+        if (!halo.any(!values.velocity.empty())) continue;
+        reportInflow(controls, patch, prescribedInflow(mesh, halo, patch, values, state, cover));
+    }
+    const auto& g = controls.fluid.gravity;
+    if (controls.fluid.isTwoPhase && std::hypot(g[0], g[1], g[2]) > 0)
+    {
+        const std::vector<double> levels = outsideLevels(mesh, halo, patches, controls.fluid, time);
+        for (std::size_t p = 0; p < patches.size(); ++p)
+            if (patches[p].pressure != BoundaryPatch::Pressure::Natural) reportLevel(controls, patches[p], levels[p]);
+    }
+    Foam::Info << Foam::endl;
+}
+
+} // namespace flotsam

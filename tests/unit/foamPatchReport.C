@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Discharges and water levels that boundary conditions come to. On 1 and 2 ranks.
+#include "equations/patchInflow.hpp"
+#include "foam/patchReport.H"
+#include "support/boundaryScene.H"
+#include "support/near.hpp"
+
+#include <iostream>
+#include <sstream>
+
+using namespace flotsam;
+
+namespace
+{
+
+/// The channel, 1 m high and 0.1 m thick, with water at rest below `level`.
+struct Channel : BoundaryScene
+{
+    FlowState state;
+
+    Channel(Edits edits, double level) : BoundaryScene(with(std::move(edits), inletOnTwoRanks))
+    {
+        state.u = velocity;
+        for (int i = 0; i < adapter.mesh.nNodes; ++i) alpha[i] = adapter.mesh.x[2*i + 1] < level;
+        state.alpha = alpha;
+    }
+    static Edits with(Edits edits, const FoamCase::Edit& edit) { edits.push_back(edit); return edits; }
+    PatchInflow inflow() const { return prescribedInflow(adapter.mesh, halo, patch("inlet"), values("inlet"), state, nullptr); }
+    double level(const std::string& name) const
+    {
+        const std::vector<double> all = outsideLevels(adapter.mesh, halo, patches, controls.fluid, 0);
+        for (std::size_t p = 0; p < patches.size(); ++p) if (patches[p].name == name) return all[p];
+        return std::nan("");
+    }
+    std::string report() const
+    {
+        std::ostringstream out;
+        auto* screen = std::cout.rdbuf(out.rdbuf());
+        reportPatches(controls, adapter, halo, patches, state, nullptr, 0);
+        std::cout.rdbuf(screen);
+        return out.str();
+    }
+};
+
+FoamCase::Edit phaseOfInlet(const std::string& condition) { return {"0/alpha.water", "type variableHeightFlowRate; lowerBound 0.1; upperBound 0.9; value uniform 0;", condition}; }
+FoamCase::Edit pressureOfOutlet(const std::string& condition) { return {"0/p_rgh", "outlet { type fixedValue; value uniform 7; }", "outlet { " + condition + " }"}; }
+
+} // namespace
+
+TEST_CASE("what enters, the liquid of it, and gas where liquid stands, each to round-off")
+{
+    const Channel same({phaseOfInlet("type zeroGradient;")}, 0.55);     // alpha linear from 1 at 0.5 to 0 at 0.6 m: half a metre and half an element
+    CHECK(same.inflow().all == near(0.05, 1e-13));
+    CHECK(same.inflow().liquid == near(0.05*0.55, 1e-13));
+    CHECK(same.inflow().gasAtLiquid == within(0, 1e-15));
+    const Channel gas({phaseOfInlet("type fixedValue; value uniform 0;")}, 0.55);
+    CHECK(gas.inflow().liquid == within(0, 1e-15));
+    CHECK(gas.inflow().gasAtLiquid == near(0.05*0.55, 1e-13));
+    const Channel half({phaseOfInlet("type fixedValue; value uniform 0.5;")}, 0.55);
+    CHECK(half.inflow().liquid == near(0.025, 1e-13));
+    const Channel out({{"0/U", "constant 0.05", "constant -0.05"}, phaseOfInlet("type fixedValue; value uniform 0;")}, 0.55);    // what leaves is what stands there
+    CHECK(out.inflow().all == near(-0.05, 1e-13));
+    CHECK(out.inflow().liquid == near(-0.05*0.55, 1e-13));
+    CHECK(out.inflow().gasAtLiquid == within(0, 1e-15));
+}
+
+TEST_CASE("the level outside is that of hRef and of what is given above the air's pressure")
+{
+    const FoamCase::Edit hRef{"constant/hRef", "value 0;", "value 0.6;"};
+    const auto level = [&](const std::string& outlet) { return Channel({hRef, pressureOfOutlet(outlet)}, 0.55).level("outlet"); };
+    CHECK(level("type fixedValue; value uniform 3;") == near(0.6, 1e-9));       // the air above has 3 Pa
+    CHECK(level("type fixedValue; value uniform 1003;") == near(0.7, 1e-9));    // 1000 Pa/(1000 kg/m^3 10 m/s^2)
+    CHECK(level("type prghPressure; p uniform 1003;") == near(1.1, 1e-9));      // as much at the top of the patch, at 1 m
+    CHECK(std::isinf(level("type prghTotalPressure; p0 uniform 3;")));          // a free overfall
+    CHECK(std::isinf(Channel({pressureOfOutlet("type fixedValue; value uniform 3;")}, 0.55).level("outlet")));   // hRef 0, the bed
+    CHECK(std::isinf(Channel({hRef}, 0.55).level("top")));
+    CHECK(std::isinf(Channel({hRef}, 0.55).level("inlet")));
+}
+
+TEST_CASE("report: discharges, levels, a warning of gas that enters below the surface")
+{
+    const Channel right({{"constant/hRef", "value 0;", "value 0.6;"}, pressureOfOutlet("type fixedValue; value uniform 3;"), phaseOfInlet("type zeroGradient;")}, 0.55);
+    const Channel wrong({pressureOfOutlet("type fixedValue; value uniform 3;"), phaseOfInlet("type inletOutlet; inletValue uniform 0;")}, 0.55);
+    const std::string good = right.report(), bad = wrong.report();
+    if (!isSerial()) return;    // Info prints on the first rank alone
+    CHECK(has(good, "inlet: 0.05 m^3/s enter, 0.0275 of them water"));
+    CHECK(has(good, "outlet: pressure of water outside up to a height of 0.6 m"));
+    CHECK(has(good, "top: no water outside"));
+    CHECK(!has(good, "Warning"));
+    CHECK(has(bad, "Warning: patch inlet lets in 0.0275 m^3/s of gas where water stands at it"));
+    CHECK(has(bad, "outlet: no water outside"));
+}
