@@ -205,6 +205,17 @@ double firstStep(const Foam::Time& runTime, const CaseControls& controls, const 
     return firstTimeStep(given, controls.time.maxCo, shortest, std::hypot(g[0], g[1], g[2]));
 }
 
+/// A step shorter than this part of the wanted one is said to be so because of the write time at which it ends; others are what the flow, the bodies or maxDeltaT make them.
+constexpr double mostlyCut = 0.8;
+
+/// As OpenFOAM's solvers, the run does not write at its end.
+void warnUnwritten(const Foam::Time& runTime, const WriteTimes& writeTimes)
+{
+    if (writeTimes.comeBy(runTime.endTime().value())) return;
+    Foam::Info<< "Warning: nothing will be written for ParaView or to go on from: the first write time, by writeInterval of system/controlDict, is later than endTime, "
+        << runTime.endTime().value() << " s" << Foam::nl << Foam::endl;
+}
+
 /// limit: word of nextTimeStep().
 void checkTimeStep(double wanted, const std::string& limit, const TimeControls& time, const CoupledStep& step)
 {
@@ -291,6 +302,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     TimeControls time = controls.time;
     if (!runTime.run())
         Foam::Info<< "Nothing to do: the run is at " << runTime.timeName() << " s, endTime of system/controlDict is " << runTime.endTime().value() << " s" << Foam::endl;
+    else warnUnwritten(runTime, writeTimes);
     bool isComplete = true;
     double dt = output.timeStep() > 0 ? output.timeStep() : firstStep(runTime, controls, adapter.mesh, halo)/timeStepGrowth;
     while (runTime.run())
@@ -301,11 +313,12 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         auto [wanted, limit] = nextTimeStep(rates.largest, rates.bodies, time, dt);
         checkTimeStep(wanted, limit, time, step);
         double used = writeTimes.setStep(wanted);
-        if (used < 0.999*wanted) limit = "write";
         const double before = used;
+        if (used < mostlyCut*wanted) limit = "write";
         const StepResult result = advance(step, time, used, output);
         if (used < before) limit = "retry";
-        dt = limit == "write" ? std::min(wanted, longestAfterWrite*used) : used;
+        const bool isCut = used == before && used < 0.999*wanted;
+        dt = isCut ? std::min(wanted, longestAfterWrite*used) : used;
         writeTimes.advance(used);
         step.fluid().state().time = runTime.value(); // OpenFOAM's clock, to the last digit
 

@@ -47,6 +47,12 @@ double WriteTimes::setStep(double wanted)
     return clock_.deltaTValue();
 }
 
+bool WriteTimes::comeBy(double end) const
+{
+    constexpr double roundOff = 1e-9;   // of a step: a write time at the end is one
+    return !ClockAccess::isCounted(clock_) || count(clock_, first_, end, roundOff*ClockAccess::interval(clock_)) > count(clock_, first_, time_, lastStep_);
+}
+
 void WriteTimes::advance(double step)
 {
     clock_.setDeltaT(step, false);

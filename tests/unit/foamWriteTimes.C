@@ -46,6 +46,8 @@ public:
         return records_;
     }
 
+    const WriteTimes& times() const { return *times_; }
+
 private:
     Foam::Time clock_;
     std::unique_ptr<WriteTimes> times_;
@@ -81,6 +83,20 @@ TEST_CASE("adjusted steps end at the write times, others beside them; each count
         if (r.isWriteTime) CHECK(std::abs(r.time - (begin + ++nNearest*interval)) <= longest - 0.5*shortest);
     CHECK(nAdjusted > 30);
     CHECK(nNearest > 30);
+}
+
+TEST_CASE("whether a write time comes by the end of the run is known before")
+{
+    for (const char* control : {"adjustableRunTime", "runTime"})
+    {
+        Run run(control);
+        CHECK(run.times().comeBy(begin + interval));
+        CHECK(!run.times().comeBy(begin + 0.99*interval));
+        for (std::size_t n = 1; !run.to(n).back().isWriteTime; ++n) {}
+        CHECK(run.times().comeBy(begin + 2*interval));
+        CHECK(!run.times().comeBy(begin + 1.9*interval));
+    }
+    CHECK(Run("cpuTime").times().comeBy(begin + 0.5*interval));     // nobody knows
 }
 
 TEST_CASE("a run that ends at the next write time ends at one")
