@@ -233,6 +233,7 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
     frame.materials = input.materials;
 
     readStructures(dict, frame, input);
+    checkCovering(input, simplexMesh, halo, dict);
     reportStructures(input, frame);
     std::vector<BodyGroup> groups = readGroups(dict, frame);
     if (groups.empty())

@@ -61,6 +61,21 @@ void warnOutside(const BodiesInput& input)
     }
 }
 
+/// The box is the mesh's: shapes are asked for nodes only where theirs holds it.
+bool coversMesh(const StructureDefinition& s, const std::array<Vec3, 2>& box, const SimplexMesh& mesh, const Halo& halo)
+{
+    const auto [lower, upper] = boundsOf(s);
+    if (!((lower.array() <= box[0].array()).all() && (box[1].array() <= upper.array()).all())) return false;
+    const PlacedShape placed(s.solid.shape, s.solid.pose.orientation, s.solid.pose.position);
+    bool isLeft = false;
+    for (int i = 0; i < mesh.nOwned && !isLeft; ++i)
+    {
+        const auto x = mesh.spacePoint(i);
+        isLeft = placed.distance({x[0], x[1], x[2]}) > 0;
+    }
+    return !halo.any(isLeft);
+}
+
 /// Whether a structure's box lies in that of another one.
 bool liesInOther(const std::vector<StructureDefinition>& structures, std::size_t s)
 {
@@ -110,6 +125,17 @@ StructureOverlaps findOverlaps(const std::vector<StructureDefinition>& structure
             else if (gap(first, second, 0) < -tolerance) overlaps.overlapping.emplace_back(a, b);
         }
     return overlaps;
+}
+
+void checkCovering(const BodiesInput& input, const SimplexMesh& mesh, const Halo& halo, const Foam::dictionary& dict)
+{
+    for (const StructureDefinition& s : input.structures)
+    {
+        if (!coversMesh(s, input.box, mesh, halo)) continue;
+        const Vec3 size = boundsOf(s)[1] - boundsOf(s)[0], meshSize = input.box[1] - input.box[0];
+        failIn(dict, text("Structure '", s.solid.name, "' covers the whole mesh: it is ", size[0], " m x ", size[1], " m x ", size[2], " m, the mesh ",
+            meshSize[0], " m x ", meshSize[1], " m x ", meshSize[2], " m, and no fluid is left.\n    Lengths are in m: an STL file in mm needs 'scale 0.001'."));
+    }
 }
 
 void reportStructures(const BodiesInput& input, const SceneFrame& frame)

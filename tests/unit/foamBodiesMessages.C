@@ -40,6 +40,10 @@ TEST_CASE("one message for every mistake")
     CHECK(has(overlap, "Body bar.1 reaches 5 mm into body bar.0"));
     CHECK(has(s.message("structures { post { shape { type cylinder; end1 (0.5 0 0.2); end2 (0.5 1 0.2); radius 0.05; } } }" + bodies(bar + at)), "into structure post"));
     CHECK(has(s.message("structures { post { shape { type box; size (0.1 0.1 0.1); } wall noslip; } }"), "Did you mean: noSlip"));
+    const std::string millimetres = "structures { post { shape { type cylinder; end1 (500 500 -200); end2 (500 500 2000); radius 900; } } }";
+    CHECK(has(s.message(millimetres), "Structure 'post' covers the whole mesh: it is 1800 m x 1800 m x 2200 m"));
+    CHECK(has(s.message(millimetres + bodies(bar + at)), "covers the whole mesh"));   // not the place of the body
+    CHECK(s.message("structures { drum { shape { type cylinder; end1 (1 0.5 -1); end2 (1 0.5 1); radius 1.05; } } }").empty());   // the mesh's corners are left
     const std::string gate = "structures { gate { shape { type box; size (0.1 0.1 0.1); } position (1.5 0.5 0.2); ", moves = "motion { type linear; velocity (1 0 0); } ";
     CHECK(has(s.message(gate + "spheres { radius 0.02; } } }" + bodies(bar + at)), "structures with 'motion'"));
     CHECK(has(s.message(gate + moves + "spheres { radius 0.06; } } }" + bodies(bar + at)), "smallest extent is 0.1"));
