@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace flotsam
 {
@@ -202,14 +203,32 @@ bool drawPose(const BodyGroup& group, const RandomPlacement& random, const Eigen
     return true;
 }
 
-[[noreturn]] void failToPlace(const BodyGroup& group, const RandomPlacement& random, int nPlaced, const TightestFit& tightest, const Foam::dictionary& dict)
+/// What was in the way of most of some further tries: bodies may be too many, or the box lies in a structure or nearer to the bed than minGap.
+std::string mostlyInTheWay(const BodyGroup& group, const RandomPlacement& random, const SceneFrame& frame, const Obstacles& obstacles, RandomNumbers& numbers)
+{
+    constexpr int nTries = 200;
+    std::map<std::string, int> counts;
+    for (int k = 0; k < nTries; ++k)
+    {
+        Pose pose;
+        TightestFit tightest;
+        if (!drawPose(group, random, readOrientation(*group.dict), frame, numbers, pose, tightest)) continue;
+        const auto conflict = findConflict({group.prototype.name, group.sampled, pose}, obstacles, random.minGap, !group.prototype.entersAtRelease);
+        if (conflict) ++counts[conflict->with.rfind("body ", 0) == 0 ? "other bodies" : conflict->with];
+    }
+    if (counts.empty()) return "";
+    const auto most = std::max_element(counts.begin(), counts.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+    return text("\n    Of ", nTries, " more tries ", most->second, " lay in ", most->first, random.minGap > 0 ? text(" or nearer than minGap, ", random.minGap, " m, to it") : "", '.');
+}
+
+[[noreturn]] void failToPlace(const BodyGroup& group, const RandomPlacement& random, int nPlaced, const TightestFit& tightest, const std::string& inTheWay, const Foam::dictionary& dict)
 {
     if (tightest.excess > roundOff)
         failIn(dict, text("Bodies '", group.prototype.name, "' do not fit into 'box', which must hold the whole of them: it is ", tightest.extent - tightest.excess,
             " m long along ", "xyz"[tightest.axis], ", a body ", random.orientation == "fixed" ? "" : "in the best of all orientations that were tried ", tightest.extent,
             " m.\n    Enlarge 'box'", random.orientation == "fixed" ? ", or turn the bodies ('orientation')." : ", or allow more 'tries'."));
     failIn(dict, text("Only ", nPlaced, " of ", random.count, " bodies '", group.prototype.name, "' found a place within ", random.tries,
-        " tries.\n    Enlarge 'box', lower 'count' or 'minGap', or allow more 'tries'."));
+        " tries.\n    Enlarge 'box', lower 'count' or 'minGap', or allow more 'tries'.", inTheWay));
 }
 
 void placeRandomly(BodyGroup& group, const SceneFrame& frame, Obstacles& obstacles)
@@ -226,7 +245,7 @@ void placeRandomly(BodyGroup& group, const SceneFrame& frame, Obstacles& obstacl
         for (int k = 0; k < random.tries && !isPlaced; ++k)
             isPlaced = drawPose(group, random, base, frame, numbers, body.pose, tightest)
                 && isPlaceFree({body.name, group.sampled, body.pose}, obstacles, random.minGap, !body.entersAtRelease);
-        if (!isPlaced) failToPlace(group, random, i, tightest, dict);
+        if (!isPlaced) failToPlace(group, random, i, tightest, mostlyInTheWay(group, random, frame, obstacles, numbers), dict);
         body.releaseTime = random.from + i*random.interval;
         join(obstacles, group, body);
         group.members.push_back(std::move(body));

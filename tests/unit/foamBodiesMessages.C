@@ -49,6 +49,11 @@ TEST_CASE("one message for every mistake")
     CHECK(has(s.message(gate + moves + "spheres { radius 0.06; } } }" + bodies(bar + at)), "smallest extent is 0.1"));
     CHECK(has(s.message(gate + moves + "spheres { radius 0.0005; } } }" + bodies(bar + at)), "allowed: 50000"));
     CHECK(has(s.message(bodies(bar + "random { count 50; box ((0 0 0) (0.3 0.05 0.05)); tries 20; }")), "of 50 bodies 'bar' found a place within 20 tries"));
+    CHECK(has(s.message(bodies(bar + "random { count 50; box ((0 0 0) (0.3 0.05 0.05)); tries 20; }")), " lay in other bodies."));
+    CHECK(has(s.message(bodies(bar + "random { count 1; box ((0.2 0 0.1) (1.2 0.03 0.3)); orientation fixed; minGap 0.02; tries 20; }")),
+        "Of 200 more tries 200 lay in wall floor or nearer than minGap, 0.02 m, to it"));
+    const std::string post = "structures { post { shape { type box; size (0.4 0.4 0.3); } position (0.5 0.5 0.2); } } ";
+    CHECK(has(s.message(post + bodies(bar + "random { count 1; box ((0.35 0.35 0.1) (0.65 0.65 0.3)); tries 20; }")), "lay in structure post."));
     const std::string narrow = "random { count 5; box ((0.2 0 0) (1.2 0.03 0.1)); orientation ";
     CHECK(has(s.message(bodies(bar + narrow + "fixed; }" + " orientation { axis (0 0 1); angleDeg 90; }")), "'box', which must hold the whole of them: it is 0.03 m long along y, a body 0.2 m."));
     CHECK(has(s.message(bodies(bar + narrow + "random; tries 3; }")), "along y, a body in the best of all orientations that were tried 0."));
