@@ -232,7 +232,7 @@ void RunOutput::begin(const CoupledStep& step)
     }
 }
 
-double RunOutput::massError() const { return mass_.initial > 0 ? mass_.error()/mass_.initial : 0; }
+double RunOutput::massError() const { return mass_.relativeError(); }
 
 std::vector<std::pair<std::string, double>> RunOutput::scalars(double dt) const
 {

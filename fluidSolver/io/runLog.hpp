@@ -3,6 +3,7 @@
 /// the caller decides which rank prints.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <ctime>
@@ -71,7 +72,7 @@ struct StepReport
     std::string limit;              ///< what limits dt, one word: flow, body, cap, write, growth, retry
     int linearIterations = 0;
     int contactRepeats = 0;
-    double massError = 0;           ///< relative to the liquid in the domain, since the start
+    double massError = 0;           ///< MassBalance::relativeError()
     int bodiesInContact = 0;
     CourantNumbers courant;
 };
@@ -107,6 +108,8 @@ struct MassBalance
     double initial = 0, inflow = 0, outflow = 0, final = 0;
     double storage() const { return final - initial; }
     double error() const { return storage() - (inflow - outflow); }
+    /// Over the liquid at the start or now, whichever is more: a channel may begin dry. Not over what has passed: that grows in any long run.
+    double relativeError() const { return std::max(initial, final) > 0 ? error()/std::max(initial, final) : 0; }
 };
 
 struct RunSummary

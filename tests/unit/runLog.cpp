@@ -153,4 +153,7 @@ TEST_CASE("the summary names phases, anomalies, mass balance and forces")
     MESSAGE(text);
     for (const char* part : {"100 steps, 3 repeated", "75.0", "6.0000", "clipped alpha", "4 of 12 bodies have not come in", "3 of 12 bodies have left", "0.03 m, 15 % of the thinnest body", "1e-09", "0.0321", "pipe1"}) CHECK(contains(text, part));
     CHECK(s.mass.error() == near(1e-9, 3e-7));
+    CHECK(MassBalance{2, 0.5, 1, 1.501}.relativeError() == near(0.0005, 1e-9));     // over the start
+    CHECK(MassBalance{0, 2, 1, 1.01}.relativeError() == near(0.01/1.01, 1e-9));     // a channel that begins dry
+    CHECK(MassBalance{0, 0, 0, 0}.relativeError() == 0);
 }

@@ -35,10 +35,10 @@ def discharge(h, span=0.25):
 
 
 def massError(h):
-    """Change of the liquid volume that inflow and outflow do not explain, over the volume at the start; largest over time."""
+    """Change of the liquid volume that inflow and outflow do not explain, over the largest volume (a channel may begin dry); largest over time."""
     volume, inflow, outflow = (h.run[name] for name in ("liquidVolume", "inflow", "outflow"))
     unexplained = (volume - volume[0]) - (inflow - inflow[0]) + (outflow - outflow[0])
-    return np.abs(unexplained).max() / volume[0]
+    return np.abs(unexplained).max() / volume.max()
 
 
 def checkRuns(report, cases, runs):
