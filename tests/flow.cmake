@@ -39,6 +39,8 @@ flotsam_test(pressureLevel verification SOURCES verification/pressureLevel.cpp
   LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
 flotsam_test(basins verification SOURCES verification/basins.cpp
   LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
+flotsam_test(movingGates verification SOURCES verification/movingGates.cpp
+  LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
 flotsam_test(solidEdge verification SOURCES verification/solidEdge.cpp
   LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
 flotsam_test(squeezedFluid verification SOURCES verification/squeezedFluid.cpp

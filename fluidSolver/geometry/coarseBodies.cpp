@@ -58,7 +58,7 @@ void CoverBuilder::chooseThin(std::vector<Solid>& solids)
     for (const std::size_t s : candidates)
     {
         double count = 0, sum = 0;
-        Solid plain = solids[s]; // as in isSharp(): whether it is thin decides about the offsets
+        Solid plain = solids[s]; // whether it is thin decides about the offsets: it must not depend on them
         plain.offset = 0;
         plain.offsetSlope.setZero();
         bins_.forEachNear(plain.spaceBounds(), [&](int node, const Vec3&)
@@ -73,8 +73,7 @@ void CoverBuilder::chooseThin(std::vector<Solid>& solids)
     for (std::size_t k = 0; k < candidates.size(); ++k)
     {
         Solid& solid = solids[candidates[k]];
-        const bool maySlideOut = solid.kind != Solid::Kind::Fixed; // what one at rest covers of the boundary does not change
-        solid.isThin = thickness(solid) * lengths[2 * k] < resolvedThickness * lengths[2 * k + 1] && (!maySlideOut || isSharp(solid));
+        solid.isThin = thickness(solid) * lengths[2 * k] < resolvedThickness * lengths[2 * k + 1];
         solid.planeFaces = solid.isThin ? facesOfRound(solid.shape) : nullptr;
         if (!solid.isThin) continue;
         solid.offset = 0; // their volume is exact
@@ -168,8 +167,7 @@ CoverBuilder::CuttingFaces<dim> CoverBuilder::facesOf(const Others& others, cons
 {
     const int* nodes = nodesOf(element);
     const int fixed = fixedCover_.nearestSolid[nodes[0]];
-    const bool isOneFixed = others.solid[0] < 0 && isSharp(solids[fixed])
-        && std::all_of(nodes, nodes + dim + 1, [&](int i) { return fixedCover_.nearestSolid[i] == fixed; });
+    const bool isOneFixed = others.solid[0] < 0 && std::all_of(nodes, nodes + dim + 1, [&](int i) { return fixedCover_.nearestSolid[i] == fixed; });
     if (others.n == 1 && (others.solid[0] >= 0 || isOneFixed)) return cuttingFaces<dim>(solids[isOneFixed ? fixed : others.solid[0]], element);
     CuttingFaces<dim> faces;
     int nInside = 0;

@@ -122,6 +122,13 @@ bool CoverBuilder::isAtEdge(const std::vector<int>& face, int element) const
     return false;
 }
 
+/// With a face on the mesh's boundary (of elements at the rim of the halo: or on theirs).
+bool CoverBuilder::isOnBoundary(int element) const
+{
+    const int* faces = &elementFace_[std::size_t(element) * (mesh_.dim + 1)];
+    return std::any_of(faces, faces + mesh_.dim + 1, [](int f) { return f < 0; });
+}
+
 bool CoverBuilder::firstVisit(std::vector<int>& mark, int i) const
 {
     if (mark[i] == mark_) return false;

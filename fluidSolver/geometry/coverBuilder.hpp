@@ -128,9 +128,8 @@ private:
     template <int dim> CuttingFaces<dim> facesOf(const Others& others, const std::vector<Solid>& solids, int element) const;
     template <int dim> void cutElementOfSolids(Cover& cover, const std::vector<Solid>& solids, int element) const;
     template <int dim> void cutPatchFaces(Cover& cover, int element, const std::vector<double>& distances, const std::vector<int>& faceEnd) const;
-    bool isSharp(const Solid& solid) const;
     unsigned facesBeyond(const Solid& solid) const;
-    bool needsOffsets(const Solid& solid) const;
+    static bool needsOffsets(const Solid& solid);
     static bool isSameFixed(const Solid& now, const Solid& then);
     bool sameFixedSolids(const std::vector<Solid>& solids) const;
     void cutFixedSolids(const std::vector<Solid>& solids);
@@ -168,6 +167,7 @@ private:
     template <class Visit> void forEachElementOf(const Sample& sample, double distance, const std::vector<int>& face, Visit visit) const;
     bool isNear(const std::vector<double>& distance, int element) const;
     bool isAtEdge(const std::vector<int>& face, int element) const;
+    bool isOnBoundary(int element) const;
     void restoreFixedCover();
     void cutFarElements(const std::vector<Solid>& solids);
     void findClosedFaces(const Cover& cover);

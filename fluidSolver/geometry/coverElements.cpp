@@ -145,7 +145,8 @@ void CoverBuilder::cutElementAtEdge(Cover& cover, const std::vector<Solid>& soli
     const Solid& solid = solids[cover.nearestSolid[nodesOf(element)[0]]];
     const CuttingFaces<dim> faces = cuttingFaces<dim>(solid, element);
     if (faces.isApart) return;
-    if (solid.isCutOnce()) cutPatchFaces<dim>(cover, element, {faces.distances, faces.distances + faces.n * (dim + 1)}, {faces.n});
+    const bool isBody = solid.kind == Solid::Kind::Free || solid.isLoose; // held or not: its cut must not jump as it is let go
+    if (!isBody && isOnBoundary(element)) cutPatchFaces<dim>(cover, element, {faces.distances, faces.distances + faces.n * (dim + 1)}, {faces.n});
     const EdgeCut<dim> cut = cutAtEdge<dim>(faces, element);
     if (cut.facets.empty() && *std::min_element(distance, distance + dim + 1) > 0) return;
     storeCut<dim>(cover, solids, element, cut, cut.facets.data(), static_cast<int>(cut.facets.size()));

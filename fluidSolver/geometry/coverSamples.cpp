@@ -23,21 +23,6 @@ void leaveOut(unsigned beyond, double onFace, double* distances, int n)
 
 } // namespace
 
-/// A structure that moves through the mesh's boundary is cut linearly, as the boundary's faces there are. What is at rest is sharp wherever it lies, and so are the faces of the boundary at its
-/// edges (Cover::patchFaces). A body stays sharp on its way out and when it is let go that was held: its cut, and with it its weight in the water, must not jump; only the fluid part of an open
-/// boundary's faces at its edges is then not exact. So do thin solids, of which linear cuts see too little (coarseBodies.cpp).
-bool CoverBuilder::isSharp(const Solid& solid) const
-{
-    if (solid.kind != Solid::Kind::Prescribed || solid.isLoose || solid.isThin) return true;
-    Solid plain = solid; // the answer decides about the offsets: it must not depend on them
-    plain.offset = 0;
-    plain.offsetSlope.setZero();
-    const auto [lower, upper] = plain.spaceBounds();
-    for (int d = 0; d < mesh_.dim; ++d)
-        if (!(lower[mesh_.axes[d]] > lower_[d] && upper[mesh_.axes[d]] < upper_[d])) return false;
-    return true;
-}
-
 /// Faces of a structure at rest that lie beyond the mesh or on its boundary, as bits: the foot of a pier that stands on the bed. The distances at the nodes must not know them: a node of the
 /// bed would be as near to the surface as the pier reaches below the bed, and between two solids, where the cut is linear, water would get under the foot. Of a moving
 /// structure they are known, as what they sweep must not jump. Distances from faces are convex: the corners of what the mesh's box and the structure's have in common tell.
@@ -45,7 +30,7 @@ unsigned CoverBuilder::facesBeyond(const Solid& solid) const
 {
     double distances[maxFaces];
     if (solid.kind != Solid::Kind::Fixed || solid.shape->faceDistances(Vec3::Zero(), distances) == 0) return 0;
-    Solid plain = solid; // as in isSharp(): not by the offsets, which would move the foot of a pier off the bed
+    Solid plain = solid; // not by the offsets, which would move the foot of a pier off the bed
     plain.offset = 0;
     plain.offsetSlope.setZero();
     auto [low, high] = plain.spaceBounds();
@@ -79,7 +64,6 @@ void CoverBuilder::sample(const Solid& solid, std::vector<Sample>& samples) cons
     const Shape& shape = *solid.shape;
     const Vec3 position = solid.pose.position;
     const double outward = solid.offsetBound();
-    const bool sharp = isSharp(solid);
     const unsigned beyond = solid.isThin ? 0 : facesBeyond(solid);
     const double onFace = flush * (upper - lower).norm();
     const Vec3 far = Vec3::Constant(farDistance);
@@ -90,10 +74,11 @@ void CoverBuilder::sample(const Solid& solid, std::vector<Sample>& samples) cons
         const double limit = bins_.reach(node) + outward;
         if (outside > limit && !isNeedless_) return;
         double faces[maxFaces];
-        const int nFaces = !sharp ? 0 : solid.planeFaces ? solid.planeFaces->distances(y, faces) : shape.faceDistances(y, faces);
+        const int nFaces = solid.planeFaces ? solid.planeFaces->distances(y, faces) : shape.faceDistances(y, faces);
         if (beyond != 0) leaveOut(beyond, onFace, faces, nFaces);
+        film_.join(node, solid, nFaces, faces);
         const double* nearest = std::max_element(faces, faces + nFaces);
-        const double d = film_.joined(node, solid, nFaces > 0 ? *nearest : shape.distance(y));
+        const double d = nFaces > 0 ? *nearest : film_.joined(node, solid, shape.distance(y));
         if (d > limit) return;
         const int face = static_cast<int>(nearest - faces);
         Sample sample{node, face, face, d, noFilm};

@@ -43,9 +43,9 @@ Section planeSection(const Shape& shape, const Vec3& direction, double height)
 } // namespace
 
 /// A shape with all faces plane is cut exactly as it is.
-bool CoverBuilder::needsOffsets(const Solid& solid) const
+bool CoverBuilder::needsOffsets(const Solid& solid)
 {
-    return !(isSharp(solid) && (solid.planeFaces || solid.shape->hasPlaneFaces()));
+    return !solid.planeFaces && !solid.shape->hasPlaneFaces();
 }
 
 const CoverBuilder::KnownVolume& CoverBuilder::known(const Solid& solid)

@@ -26,21 +26,17 @@ void NodeFaces::evaluate(Row& row) const
     const auto x = mesh_.spacePoint(row.node);
     const Vec3 place(x[0], x[1], x[2]);
     row.nFaces = row.solid->faceDistances(place, row.distances);
-    if (row.nFaces > 0) film_.lift(row.node, *row.solid, row.nFaces, row.distances);
+    if (row.nFaces > 0)
+    {
+        film_.lift(row.node, *row.solid, row.nFaces, row.distances);
+        film_.join(row.node, *row.solid, row.nFaces, row.distances);
+    }
     else
     {
         row.nFaces = 1;
-        row.distances[0] = std::max(row.solid->distance(place), film_.thickness(row.node, *row.solid));
+        row.distances[0] = film_.joined(row.node, *row.solid, std::max(row.solid->distance(place), film_.thickness(row.node, *row.solid)));
     }
-    join(row);
     for (int k = 0; k < row.nFaces; ++k) row.distances[k] = snapped(row.distances[k], snap_[row.node]);
-}
-
-/// All faces that have the node outside, by what the solid as a whole is inside.
-void NodeFaces::join(Row& row) const
-{
-    const double nearest = *std::max_element(row.distances, row.distances + row.nFaces), joined = film_.joined(row.node, *row.solid, nearest);
-    for (int k = 0; k < row.nFaces && joined < nearest; ++k) row.distances[k] = std::min(row.distances[k], joined);
 }
 
 } // namespace flotsam

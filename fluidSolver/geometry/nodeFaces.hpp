@@ -33,7 +33,6 @@ private:
     struct Row { const Solid* solid; int node, nFaces; double distances[maxFaces]; };
 
     void evaluate(Row& row) const;
-    void join(Row& row) const;
 
     const SimplexMesh& mesh_;
     const WallFilm& film_;

@@ -37,6 +37,9 @@ public:
     /// makes no difference, at the node and all around it (wallJoints.cpp).
     double joined(int node, const Solid& solid, double distance) const;
 
+    /// The same of a solid that is cut by its faces: signed distances of the faces at the node.
+    void join(int node, const Solid& solid, int nFaces, double* distances) const;
+
 private:
     struct WallNode
     {
@@ -47,6 +50,7 @@ private:
 
     static double plainDistance(const Solid& solid, const Vec3& x);
     const WallNode* wallNode(int node, const Solid& solid) const;
+    const WallNode* jointNode(int node, const Solid& solid) const;
     Vec3 pointOver(int node, const WallNode& wall, double heights) const;
     void findFaces(const Halo& halo);
     double touch(const WallNode& wall, const Solid& solid, int nFaces, const double* distances, double shift) const;

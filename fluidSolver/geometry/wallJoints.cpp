@@ -8,6 +8,7 @@
 #include "geometry/wallFilm.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace flotsam
 {
@@ -21,16 +22,42 @@ constexpr double depth = 1e-6;      // of the node in the structure then
 
 } // namespace
 
+const WallFilm::WallNode* WallFilm::jointNode(int i, const Solid& solid) const
+{
+    return solid.kind == Solid::Kind::Prescribed && !solid.isLoose && position_[i] >= 0 ? &nodes_[position_[i]] : nullptr;
+}
+
 double WallFilm::joined(int i, const Solid& solid, double distance) const
 {
-    if (solid.kind != Solid::Kind::Prescribed || solid.isLoose || position_[i] < 0) return distance;
-    const WallNode& wall = nodes_[position_[i]];
-    if (distance <= 0 || distance >= closedGap*wall.height) return distance;
-    const auto from = [&](const Vec3& x) { return plainDistance(solid, x - lifted*wall.height*wall.normal); };
-    const auto isNear = [&](const Vec3& x) { return from(x) < closedGap*wall.height; };
+    const WallNode* wall = jointNode(i, solid);
+    if (!wall || distance <= 0 || distance >= closedGap*wall->height) return distance;
+    const auto from = [&](const Vec3& x) { return plainDistance(solid, x - lifted*wall->height*wall->normal); };
+    const auto isNear = [&](const Vec3& x) { return from(x) < closedGap*wall->height; };
     const auto corner = corners_.begin();
-    const bool isClosed = from(pointOver(i, wall, 0)) < 0 && std::all_of(corner + wall.firstCorner, corner + wall.endCorner, isNear);
-    return isClosed ? -depth*wall.height : distance;
+    const bool isClosed = from(pointOver(i, *wall, 0)) < 0 && std::all_of(corner + wall->firstCorner, corner + wall->endCorner, isNear);
+    return isClosed ? -depth*wall->height : distance;
+}
+
+/// Face by face, as far as its plane goes: where the structure ends over the wall its other faces go on to it. Left open, the gap would end in an element of the rim as a sliver
+/// whose nodes are in nothing else.
+void WallFilm::join(int i, const Solid& solid, int nFaces, double* distances) const
+{
+    const WallNode* wall = jointNode(i, solid);
+    if (!wall) return;
+    const double gap = closedGap*wall->height;
+    std::array<bool, maxFaces> isClosed{};
+    std::transform(distances, distances + nFaces, isClosed.begin(), [&](double d) { return d > 0 && d < gap; });
+    const auto keep = [&](const Vec3& x, double limit)
+    {
+        double over[maxFaces];
+        solid.faceDistances(x - lifted*wall->height*wall->normal, over);
+        for (int k = 0; k < nFaces; ++k) isClosed[k] = isClosed[k] && over[k] < limit;
+        return std::any_of(isClosed.begin(), isClosed.end(), [](bool is) { return is; });
+    };
+    bool any = std::any_of(isClosed.begin(), isClosed.end(), [](bool is) { return is; }) && keep(pointOver(i, *wall, 0), 0);
+    for (std::size_t c = wall->firstCorner; c < wall->endCorner && any; ++c) any = keep(corners_[c], gap);
+    for (int k = 0; k < nFaces; ++k)
+        if (isClosed[k]) distances[k] = -depth*wall->height;
 }
 
 } // namespace flotsam

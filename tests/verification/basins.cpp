@@ -139,14 +139,15 @@ TEST_CASE("a gate between two basins feels the difference of their depths")
 TEST_CASE("a gate that sinks below the water and rises again")
 {
     Tank tank;
-    const double speed = 2, top = 1.2; // at the lowest 0.4 m
-    const auto lift = [=](double t) { return -speed*std::max(0.0, std::min(t - 0.1, 0.9 - t)); };
+    const double speed = 2, dt = 0.0025, top = 1.2; // at the lowest 0.4 m
+    const double early = 0.5*dt;    // what sweeps a step is the surface at its end: passing the ceiling in the middle of steps, the gate loses on its way back what it gained on its way there
+    const auto lift = [=](double t) { return -speed*std::max(0.0, std::min(t + early - 0.1, 0.9 - t - early)); };
     CoupledStep run(tank.mesh, tank.halo, tank.fluid, tank.controls, tank.patches, Scene({Tank::gate(lift)}, {}, Vec3::Zero()), nullptr, tank.timers);
     run.start(tank.start(0.675, 0.325), false);
     double swept = 0, moved = 0;
     for (int k = 0; k < 400; ++k)
     {
-        const StepResult result = run.step(0.0025);
+        const StepResult result = run.step(dt);
         REQUIRE(result.isAccepted);
         CHECK(result.hasConverged);
         const FlowState& state = run.fluid().state();
@@ -158,7 +159,7 @@ TEST_CASE("a gate that sinks below the water and rises again")
     }
     const double liquid = 0.853*0.675 + 0.827*0.325;
     std::printf("gate swept %.4f m2, of it %.4f in the tank; phase field moved by %.2e of the liquid\n", swept, 2*0.6*0.32, moved/liquid);
-    CHECK(swept == near(2*0.6*0.32, 2e-3));
+    CHECK(swept == near(2*0.6*0.32, 1e-3));
     CHECK(moved < 0.01*liquid); // while it is in the gas; 0.09 when all fluid makes room
 }
 
