@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/foam/bodyGroup.H"
+#include "geometry/planeFaces.hpp"
 #include "geometry/primitives.hpp"
 
 namespace flotsam
@@ -42,6 +43,7 @@ double touchingThickness(const std::shared_ptr<const Shape>& shape, const SceneF
     const auto* placed = dynamic_cast<const PlacedShape*>(shape.get());
     double thickness = thinnestExtent(*shape, frame);
     if (frame.isPlanar || isOneOf<UnionShape, BoxShape, SphereShape, CylinderShape, CapsuleShape>(placed ? placed->inner() : *shape)) return thickness;
+    if (shape->hasPlaneFaces()) return largestBall(*shape); // bare places at its acute edges would ask for ever smaller spheres
     constexpr std::size_t most = 400;       // sample points
     constexpr double bare = 0.05, smaller = 0.75;
     constexpr int nTries = 12;              // down to a thirtieth

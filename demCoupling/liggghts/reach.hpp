@@ -13,7 +13,7 @@ namespace flotsam
 class TriangleBoxes
 {
 public:
-    struct Box { Vec3 lower, upper; };
+    struct Box { Vec3 lower = Vec3::Zero(), upper = Vec3::Zero(); };
     explicit TriangleBoxes(const TriSurface& surface);
     /// Whether `test` holds for any triangle whose box meets the given one.
     bool any(const Box& near, const std::function<bool(const Box&)>& test) const;

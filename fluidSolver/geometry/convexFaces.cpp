@@ -2,6 +2,8 @@
 /// Which triangulated surfaces are convex polyhedra of few faces: containers, wedges, sills and weirs drawn in a CAD program. Cut by their faces they keep edges and volume.
 #include "geometry/planeFaces.hpp"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -87,6 +89,39 @@ std::shared_ptr<const PlaneFaces> convexFaces(const TriSurface& surface)
             if (!(plane.normal.dot(x) - plane.distance < tolerance)) return nullptr;
     }
     return result->planes.empty() ? nullptr : result;
+}
+
+/// Among the centres and radii (x, r) for which a ball touches four faces from inside and reaches through none is the one with the largest r: a corner of a linear programme.
+double largestBall(const Shape& shape)
+{
+    const auto [lower, upper] = shape.bounds();
+    const Vec3 centre = 0.5 * (lower + upper);
+    double here[maxFaces], beside[maxFaces];
+    const int n = shape.faceDistances(centre, here);
+    Eigen::Matrix<double, maxFaces, 4> face;    // (normal, 1): with (x - centre, r) the negative distance of the centre at the most
+    for (int d = 0; d < 3; ++d)
+    {
+        shape.faceDistances(centre + Vec3::Unit(d), beside);
+        for (int f = 0; f < n; ++f) face(f, d) = beside[f] - here[f];
+    }
+    face.col(3).setOnes();
+    const double slack = 1e-9 * (upper - lower).norm();
+    double largest = 0;
+    for (int i = 0; i < n; ++i)
+        for (int j = i + 1; j < n; ++j)
+            for (int k = j + 1; k < n; ++k)
+                for (int l = k + 1; l < n; ++l)
+                {
+                    Eigen::Matrix4d touched;
+                    touched << face.row(i), face.row(j), face.row(k), face.row(l);
+                    const Eigen::FullPivLU<Eigen::Matrix4d> solver(touched);
+                    if (!solver.isInvertible()) continue;
+                    const Eigen::Vector4d ball = solver.solve(Eigen::Vector4d(-here[i], -here[j], -here[k], -here[l]));
+                    bool isInside = true;
+                    for (int f = 0; f < n; ++f) isInside = isInside && face.row(f).dot(ball) + here[f] < slack;
+                    if (isInside) largest = std::max(largest, ball[3]);
+                }
+    return 2 * largest;
 }
 
 double planeThickness(const Shape& shape, const Vec3& across)

@@ -33,4 +33,7 @@ std::shared_ptr<const PlaneFaces> convexFaces(const TriSurface& surface);
 /// (unit, in the shape's frame; zero: none) than not: infinite without others.
 double planeThickness(const Shape& shape, const Vec3& across);
 
+/// Diameter of the largest ball in a shape that has plane faces (Shape::hasPlaneFaces) [m].
+double largestBall(const Shape& shape);
+
 } // namespace flotsam

@@ -3,6 +3,7 @@
 #include "demCoupling/foam/bodyPlacement.hpp"
 #include "support/bodiesScene.H"
 #include "support/near.hpp"
+#include "support/polyhedra.hpp"
 
 #include <doctest/doctest.h>
 
@@ -65,6 +66,32 @@ TEST_CASE("the trunk of an STL log with a root wad has contact spheres all along
     }
     CHECK(longest < 0.01);
     CHECK(read("drum.stl").thinnest == near(0.16, 0.02*0.16)); // stout ones keep theirs
+}
+
+TEST_CASE("acute edges of an STL file do not ask for ever smaller spheres: half as large as the ball that it holds")
+{
+    BodiesScene s;
+    const std::string folder = s.foam.folder() + "/constant/triSurface/";
+    if (s.halo.rank() == 0)
+    {
+        std::filesystem::create_directories(folder);
+        const TriSurface wedge = wedgeSurface(0.4, 0.1, 0.2);
+        std::ofstream out(folder + "wedge.stl");
+        out << "solid wedge\n";
+        for (const auto& t : wedge.triangles)
+        {
+            out << "facet normal 0 0 0\nouter loop\n";
+            for (const int i : t) out << "vertex " << wedge.points[i].transpose() << '\n';
+            out << "endloop\nendfacet\n";
+        }
+        out << "endsolid wedge\n";
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+    const BodyDefinition wedge = s.read(bodies("shape { type stl; file \"wedge.stl\"; } density 600; position (0.5 0.5 0.2);")).bodies[0];
+    const double ball = 0.4 + 0.1 - std::hypot(0.4, 0.1); // diameter of the triangle's incircle
+    CHECK(wedge.thinnest == near(ball, 1e-4));
+    CHECK(wedge.spheres[0].radius == near(0.25*ball, 1e-4));
+    CHECK(wedge.spheres.size() < 500);   // by what is left bare at the edges 8 times as small: 64 times as many
 }
 
 /// Whether a ball of that radius inside the shape touches the surface at x: no edge.

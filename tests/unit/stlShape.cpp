@@ -165,6 +165,18 @@ TEST_CASE("the thickness of a polyhedron is that between its faces, however it l
     CHECK(planeThickness(*wedge, Vec3::UnitZ()) == near(0.24, 1e-12));   // the triangle's height over its longest side
 }
 
+TEST_CASE("the largest ball in a polyhedron: its thickness for a plank, the inscribed one for others")
+{
+    const Eigen::Quaterniond turned(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
+    CHECK(largestBall(*makePlaced(makeBox(Vec3::Zero(), {1, 0.3, 0.02}), turned, {0.3, 0.1, 0})) == near(0.02, 1e-9));
+    CHECK(largestBall(*makeWedge(0.4, 0.3, 1)) == near(0.2, 1e-9));     // incircle of the triangle: (0.3 + 0.4 - 0.5)/2
+    CHECK(largestBall(*makeWedge(0.4, 0.3, 0.1)) == near(0.1, 1e-9));
+    TriSurface tetrahedron;
+    tetrahedron.points = {{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}};
+    tetrahedron.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+    CHECK(largestBall(*makeClosedSurface(tetrahedron)) == near(2 / std::sqrt(3.), 1e-9));
+}
+
 TEST_CASE("STL files that are not convex or have many faces have none")
 {
     const TriSurface box = boxFrom({0, 0, 0}, {1, 1, 1});

@@ -184,7 +184,7 @@ TEST_CASE("the offset makes the cut volume the exact one")
         const double exact = builder.exactVolume(solids[0]);
         CHECK(exact == near(c.exact, 1e-4));
         const double deficit = exact - builder.build(solids).solidVolume[0];
-        double volume = 0, faces[maxFaces];
+        double volume = 0;
         for (int call = 0; call < 3; ++call) volume = builder.buildExactVolume(solids).solidVolume[0];
         MESSAGE("deficit " << deficit / exact << ", after 3 calls " << exact - volume << " m^" << c.dim << " of it, offset/h "
                            << solids[0].offset * 7);
