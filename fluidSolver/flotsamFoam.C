@@ -267,7 +267,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     const Vec3 gravity(g[0], g[1], g[2]);
     const BodiesInput bodies = readBodies(mesh, adapter.mesh, halo, gravity);
     checkEntries(bodies, controls.fluid);
-    reportBodies(bodies, controls.fluid);
+    reportBodies(bodies, controls.fluid, mesh.time().endTime().value());
     for (BoundaryPatch& patch : boundary)
         patch.stopsBodies = std::find(bodies.wallPatches.begin(), bodies.wallPatches.end(), patch.name) != bodies.wallPatches.end();
     takeBodyWalls(adapter.mesh, boundary);

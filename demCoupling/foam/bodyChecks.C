@@ -39,7 +39,7 @@ double largestStiffness(const BodiesInput& input, int material)
 
 } // namespace
 
-std::vector<std::string> doubtfulBodies(const BodiesInput& input, const FluidProperties& fluid)
+std::vector<std::string> doubtfulBodies(const BodiesInput& input, const FluidProperties& fluid, double endTime)
 {
     std::vector<std::string> doubts;
     const auto isBalloon = [&](const BodyDefinition& b) { return fluid.isTwoPhase && b.mass < fluid.rhoGas*b.volume; };
@@ -59,12 +59,17 @@ std::vector<std::string> doubtfulBodies(const BodiesInput& input, const FluidPro
         doubts.push_back(text("contact is too soft for body ", who, ": its weight alone (", body->mass*gravity, " N) presses it ", depth(*body), " m, ",
             std::round(100*depth(*body)/body->thinnest), " % of its thickness, into what it lies on. Give constant/bodies more `stiffness`, ",
             body->mass*gravity/(0.005*body->thinnest), " N/m for half a per cent"));
+
+    const auto staysHeld = [&](const BodyDefinition& b) { return b.releaseTime >= endTime; };
+    if (const auto [body, who] = firstOf(input, staysHeld); body)
+        doubts.push_back(text("body ", who, body->entersAtRelease ? " does not enter" : " is held all the time", ": its release, at ", body->releaseTime, " s, is not before endTime, ", endTime,
+            " s"));
     return doubts;
 }
 
-void reportBodies(const BodiesInput& input, const FluidProperties& fluid)
+void reportBodies(const BodiesInput& input, const FluidProperties& fluid, double endTime)
 {
-    for (const std::string& doubt : doubtfulBodies(input, fluid)) Foam::Info<< "Warning: " << doubt.c_str() << Foam::nl;
+    for (const std::string& doubt : doubtfulBodies(input, fluid, endTime)) Foam::Info<< "Warning: " << doubt.c_str() << Foam::nl;
 }
 
 } // namespace flotsam

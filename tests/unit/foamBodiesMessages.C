@@ -124,7 +124,7 @@ TEST_CASE("an open STL is refused with its file")
     CHECK(has(s.message(bodies("shape { type stl; file \"absent.stl\"; } density 500;")), "absent.stl"));
 }
 
-TEST_CASE("bodies lighter than the gas, and those that their weight presses deep into what they lie on, are told")
+TEST_CASE("bodies lighter than the gas, those that their weight presses deep into what they lie on, and those never released, are told")
 {
     BodiesScene s;
     FluidProperties fluid;
@@ -134,7 +134,7 @@ TEST_CASE("bodies lighter than the gas, and those that their weight presses deep
     {
         const BodiesInput input = s.read("materials (wood steel); wallMaterial steel; contact { default { stiffness 100; } wood-steel { " + stiffness + " } } bodies { cube { " + cube + rest
             + " material wood; poses ( { position (0.5 0.5 0.2); } { position (0.8 0.5 0.2); } ); } }");
-        return doubtfulBodies(input, fluid);
+        return doubtfulBodies(input, fluid, 5);
     };
     CHECK(doubts("stiffness 1e4;", "density 600;").empty());
     const auto light = doubts("stiffness 1e4;", "density 0.6;");
@@ -147,5 +147,12 @@ TEST_CASE("bodies lighter than the gas, and those that their weight presses deep
     CHECK(has(soft[0], "its weight alone (9.81 N) presses it 0.00981 m, 10 % of its thickness"));
     CHECK(has(soft[0], "19620 N/m"));
     CHECK(doubts("stiffness 2000;", "mass 1;").empty());        // 4.9 %
+    CHECK(doubts("stiffness 1e4;", "density 600; releaseTime 4.9;").empty());
+    const auto held = doubts("stiffness 1e4;", "density 600; releaseTime 50;");
+    REQUIRE(held.size() == 1);
+    CHECK(has(held[0], "body cube.0 (and 1 more) is held all the time: its release, at 50 s, is not before endTime, 5 s"));
+    const auto absent = doubts("stiffness 1e4;", "density 600; releaseTime 50; beforeRelease absent;");
+    REQUIRE(absent.size() == 1);
+    CHECK(has(absent[0], "body cube.0 (and 1 more) does not enter"));
     CHECK(doubts("stiffness 1000; perBody off;", "mass 1;").empty());
 }
