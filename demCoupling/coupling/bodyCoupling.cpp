@@ -75,8 +75,7 @@ void BodyCoupling::shareResults()
 {
     const auto passResults = [this](auto& archive)
     {
-        pass(archive, result_);
-        pass(archive, newContact_);
+        passAll(archive, result_, newContact_);
         passSummary(archive, touch_);
     };
     NumberWriter writer; // on every rank, for the length

@@ -34,13 +34,7 @@ struct ContactSummary
 template <class Archive, class Summary>
 void passSummary(Archive& archive, Summary& summary)
 {
-    pass(archive, summary.wallLoads);
-    pass(archive, summary.counts);
-    pass(archive, summary.wallCounts);
-    pass(archive, summary.largestOverlap);
-    pass(archive, summary.deepestBody);
-    pass(archive, summary.deepestOther);
-    pass(archive, summary.pressing);
+    passAll(archive, summary.wallLoads, summary.counts, summary.wallCounts, summary.largestOverlap, summary.deepestBody, summary.deepestOther, summary.pressing);
 }
 
 } // namespace flotsam

@@ -25,14 +25,9 @@ struct CouplingRecord
 template <class Archive, class Record>
 void passRecord(Archive& archive, Record& record)
 {
-    for (auto* loads : {&record.wallLoads, &record.lastLoads, &record.contact, &record.guess}) pass(archive, *loads);
-    pass(archive, record.factors);
-    pass(archive, record.smooth);
-    pass(archive, record.isHeld);
-    pass(archive, record.presence);
-    pass(archive, record.counts);
-    pass(archive, record.wallCounts);
-    pass(archive, record.largestOverlap);
+    passAll(archive, record.wallLoads, record.lastLoads, record.contact, record.guess);
+    passAll(archive, record.factors, record.smooth, record.isHeld, record.presence);
+    passAll(archive, record.counts, record.wallCounts, record.largestOverlap);
 }
 
 inline std::vector<double> numbersOf(const CouplingRecord& record)

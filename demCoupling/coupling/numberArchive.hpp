@@ -31,6 +31,8 @@ private:
     const double* at_;
 };
 
+template <class Archive, class... Parts> void passAll(Archive& archive, Parts&... parts);
+
 /// Numbers, enumerations, what bodies have, and lists of them: lists have their length already.
 template <class Archive, class T>
 void pass(Archive& archive, T& value)
@@ -45,24 +47,19 @@ void pass(Archive& archive, T& value)
     else if constexpr (std::is_same_v<Type, Vec3>)
         for (int d = 0; d < 3; ++d) archive.number(value[d]);
     else if constexpr (std::is_same_v<Type, Load>)
-    {
-        pass(archive, value.force);
-        pass(archive, value.moment);
-    }
+        passAll(archive, value.force, value.moment);
     else if constexpr (std::is_same_v<Type, InertiaFactor>)
-    {
-        pass(archive, value.mass);
-        pass(archive, value.turn);
-    }
+        passAll(archive, value.mass, value.turn);
     else if constexpr (std::is_same_v<Type, BodyState>)
-    {
-        pass(archive, value.pose.position);
-        pass(archive, value.pose.orientation);
-        pass(archive, value.motion.velocity);
-        pass(archive, value.motion.angularVelocity);
-        pass(archive, value.angularMomentum);
-    }
+        passAll(archive, value.pose.position, value.pose.orientation, value.motion.velocity, value.motion.angularVelocity, value.angularMomentum);
     else for (auto& part : value) pass(archive, part);
+}
+
+/// One after the other.
+template <class Archive, class... Parts>
+void passAll(Archive& archive, Parts&... parts)
+{
+    (pass(archive, parts), ...);
 }
 
 } // namespace flotsam
