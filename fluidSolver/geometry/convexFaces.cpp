@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Which triangulated surfaces are convex polyhedra of few faces: containers, wedges, sills and weirs drawn in a CAD program. Cut by their faces they keep edges and volume.
+/// Which triangulated surfaces are convex polyhedra of few faces: containers, wedges, sills and weirs drawn in a CAD program. Cut by their faces they keep edges and volume. Sizes of polyhedra.
 #include "geometry/planeFaces.hpp"
 
 #include <Eigen/LU>

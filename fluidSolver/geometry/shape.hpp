@@ -30,7 +30,7 @@ struct TriSurface
     std::vector<std::array<int, 3>> triangles;
 };
 
-/// Of a dodecahedron, see PlaneFaces.
+/// As many as a dodecahedron has (PlaneFaces). STL files with more plane faces are cut by their distance.
 constexpr int maxFaces = 12;
 
 /// Rotations that turn a shape into itself, in its frame: none, about one axis, or all about a point.

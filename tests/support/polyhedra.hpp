@@ -4,6 +4,9 @@
 
 #include "geometry/stlReader.hpp"
 
+#include <fstream>
+#include <string>
+
 namespace flotsam
 {
 
@@ -29,6 +32,21 @@ inline TriSurface wedgeSurface(double length, double height, double depth, const
 inline std::shared_ptr<const Shape> makeWedge(double length, double height, double depth, const Vec3& origin = Vec3::Zero())
 {
     return makeClosedSurface(wedgeSurface(length, height, depth, origin));
+}
+
+/// ASCII, with all digits.
+inline void writeStl(const std::string& file, const TriSurface& surface)
+{
+    std::ofstream out(file);
+    out.precision(17);
+    out << "solid test\n";
+    for (const auto& t : surface.triangles)
+    {
+        out << "facet normal 0 0 0\nouter loop\n";
+        for (const int i : t) out << "vertex " << surface.points[i].transpose() << '\n';
+        out << "endloop\nendfacet\n";
+    }
+    out << "endsolid test\n";
 }
 
 } // namespace flotsam

@@ -75,16 +75,7 @@ TEST_CASE("acute edges of an STL file do not ask for ever smaller spheres: half 
     if (s.halo.rank() == 0)
     {
         std::filesystem::create_directories(folder);
-        const TriSurface wedge = wedgeSurface(0.4, 0.1, 0.2);
-        std::ofstream out(folder + "wedge.stl");
-        out << "solid wedge\n";
-        for (const auto& t : wedge.triangles)
-        {
-            out << "facet normal 0 0 0\nouter loop\n";
-            for (const int i : t) out << "vertex " << wedge.points[i].transpose() << '\n';
-            out << "endloop\nendfacet\n";
-        }
-        out << "endsolid wedge\n";
+        writeStl(folder + "wedge.stl", wedgeSurface(0.4, 0.1, 0.2));
     }
     MPI_Barrier(MPI_COMM_WORLD);
     const BodyDefinition wedge = s.read(bodies("shape { type stl; file \"wedge.stl\"; } density 600; position (0.5 0.5 0.2);")).bodies[0];

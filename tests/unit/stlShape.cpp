@@ -27,20 +27,6 @@ struct TemporaryFile
     ~TemporaryFile() { std::remove(name.c_str()); }
 };
 
-void writeAscii(const std::string& name, const TriSurface& s)
-{
-    std::ofstream out(name);
-    out.precision(17);
-    out << "solid test\n";
-    for (const auto& t : s.triangles)
-    {
-        out << "facet normal 0 0 0\n outer loop\n";
-        for (int i : t) out << "  vertex " << s.points[i].transpose() << '\n';
-        out << " endloop\nendfacet\n";
-    }
-    out << "endsolid test\n";
-}
-
 void writeBinary(const std::string& name, const TriSurface& s)
 {
     std::ofstream out(name, std::ios::binary);
@@ -103,7 +89,7 @@ TEST_CASE("an STL box is the box: distance, bounds, moments; ASCII, either orien
         const TemporaryFile file;
         TriSurface s = box->surface(1);
         if (isTurned) turnInsideOut(s);
-        writeAscii(file.name, s);
+        writeStl(file.name, s);
         const auto stl = makeStl(file.name);
         double worst = 0;
         for (const Vec3& x : randomPoints(1.2, 2000)) worst = std::max(worst, std::abs(stl->distance(x) - box->distance(x)));
@@ -139,7 +125,7 @@ TEST_CASE("the faces of an STL file are those of the convex polyhedron that it i
             const TemporaryFile file;
             TriSurface s = isBox ? makeBox({0.1, -0.2, 0.3}, {1, 0.6, 0.4})->surface(1) : wedgeSurface(1, 0.5, 0.7, {-0.3, -0.2, 0.1});
             for (Vec3& x : s.points) x = turned * x;
-            isBinary ? writeBinary(file.name, s) : writeAscii(file.name, s);
+            isBinary ? writeBinary(file.name, s) : writeStl(file.name, s);
             const auto stl = makeStl(file.name);
             CHECK(stl->hasPlaneFaces());
             double distances[maxFaces], worst = 0;
@@ -190,7 +176,7 @@ TEST_CASE("STL files that are not convex or have many faces have none")
              makeCylinder({0, 0, 0}, {0, 0, 1}, 0.3)->surface(0.05)})
     {
         const TemporaryFile file;
-        writeAscii(file.name, s);
+        writeStl(file.name, s);
         double distances[maxFaces];
         CHECK(makeStl(file.name)->faceDistances(Vec3::Zero(), distances) == 0);
     }
@@ -203,7 +189,7 @@ TEST_CASE("the sign is right near sharp edges and corners, where face normals fa
     s.points = {{0, 0, 0}, {0.1, 0, 0}, {0, 0.1, 0}, {0.5, 0.6, 1}};
     s.triangles = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
     const TemporaryFile file;
-    writeAscii(file.name, s);
+    writeStl(file.name, s);
     const auto spike = makeStl(file.name);
     int wrong = 0;
     for (const Vec3& x : randomPoints(1.2, 5000))
@@ -224,18 +210,18 @@ TEST_CASE("surfaces that enclose nothing are refused, naming the file and the ed
     const TemporaryFile file;
     TriSurface s = makeBox(Vec3::Zero(), {2, 2, 2})->surface(1);
     s.triangles.pop_back();
-    writeAscii(file.name, s);
+    writeStl(file.name, s);
     CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains(file.name.c_str()), std::runtime_error);
     CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("the surface is open: the edge ("), std::runtime_error);
 
     s = makeBox(Vec3::Zero(), {2, 2, 2})->surface(1);
     std::swap(s.triangles[3][0], s.triangles[3][1]);
-    writeAscii(file.name, s);
+    writeStl(file.name, s);
     CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("opposite orientation"), std::runtime_error);
 
     s = makeBox(Vec3::Zero(), {2, 2, 2})->surface(1);
     s.triangles.push_back(s.triangles[0]);
-    writeAscii(file.name, s);
+    writeStl(file.name, s);
     CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("wanted 2"), std::runtime_error);
 
     std::ofstream(file.name) << "something else";
@@ -254,11 +240,11 @@ TEST_CASE("closed parts that reach into each other are refused: lapped, crossed,
     const Parts balls = {makeSphere(Vec3::Zero(), 1)->surface(0.1), makeSphere({1.5, 0, 0}, 1)->surface(0.1)};
     for (const Parts& parts : {lapped, crossed, nested, islandInWall, cavityInAir, balls})
     {
-        writeAscii(file.name, joined(parts));
+        writeStl(file.name, joined(parts));
         CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains(file.name.c_str()), std::runtime_error);
         CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("closed parts reach into each other"), std::runtime_error);
     }
-    writeAscii(file.name, joined({nested[0], turned(boxFrom({2, 2, 2}, {2.5, 2.5, 2.5}))}));
+    writeStl(file.name, joined({nested[0], turned(boxFrom({2, 2, 2}, {2.5, 2.5, 2.5}))}));
     CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("is oriented inwards"), std::runtime_error);
 }
 
@@ -270,7 +256,7 @@ TEST_CASE("closed parts may lie apart, touch, and be cavities and islands in the
     const std::pair<Parts, double> cases[] = {{{outer, boxFrom({3, 3, 3}, {4, 4, 4})}, 9}, {{outer, beside}, 8.5}, {{outer, cavity}, 7}, {{outer, cavity, island, beside}, 7.716}};
     for (const auto& [parts, volume] : cases)
     {
-        writeAscii(file.name, joined(parts));
+        writeStl(file.name, joined(parts));
         CHECK(makeStl(file.name)->moments().volume == near(volume, 1e-12));
     }
 }
@@ -278,8 +264,8 @@ TEST_CASE("closed parts may lie apart, touch, and be cavities and islands in the
 TEST_CASE("a union of STL shapes counts what they share once")
 {
     const TemporaryFile a, b{"stlShapeTest.b." + std::to_string(getpid()) + ".stl"};
-    writeAscii(a.name, boxFrom({-0.2, -0.02, -0.025}, {0.05, 0.02, 0.025}));
-    writeAscii(b.name, boxFrom({-0.05, -0.02, -0.025}, {0.2, 0.02, 0.025}));
+    writeStl(a.name, boxFrom({-0.2, -0.02, -0.025}, {0.05, 0.02, 0.025}));
+    writeStl(b.name, boxFrom({-0.05, -0.02, -0.025}, {0.2, 0.02, 0.025}));
     const VolumeMoments m = makeUnion({makeStl(a.name), makeStl(b.name)})->moments(), exact = makeBox(Vec3::Zero(), {0.4, 0.04, 0.05})->moments();
     CHECK(m.volume == near(exact.volume, 2e-5));
     CHECK(m.centroid.norm() < 1e-6);

@@ -2,13 +2,13 @@
 #include "geometry/shape.hpp"
 #include "geometry/triSurface.hpp"
 #include "support/near.hpp"
+#include "support/polyhedra.hpp"
 
 #include <doctest/doctest.h>
 #include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <stdexcept>
 
 using namespace flotsam;
@@ -160,24 +160,10 @@ TEST_CASE("section: one layer at the rim, whatever the extent across, wherever t
 TEST_CASE("STL: spheres touch from inside, cover the surface, and are the same at every call")
 {
     const std::string file = "surfaceSpheresTest." + std::to_string(getpid()) + ".stl";
-    const auto write = [&](const Shape& shape)
-    {
-        std::ofstream out(file);
-        out.precision(17);
-        out << "solid s\n";
-        const TriSurface s = shape.surface(0.03);
-        for (const auto& t : s.triangles)
-        {
-            out << "facet normal 0 0 0\nouter loop\n";
-            for (int i : t) out << "vertex " << s.points[i].transpose() << '\n';
-            out << "endloop\nendfacet\n";
-        }
-        out << "endsolid s\n";
-    };
     const double r = 0.02, spacing = 0.03;
     for (const auto& shape : {makeBox(Vec3::Zero(), {0.3, 0.1, 0.12}), makeCapsule({0, 0, 0}, {0.3, 0.1, 0}, 0.06)})
     {
-        write(*shape);
+        writeStl(file, shape->surface(0.03));
         const auto stl = makeStl(file);
         const auto spheres = surfaceSpheres(*stl, r, spacing), again = surfaceSpheres(*stl, r, spacing);
         checkTouching(*stl, spheres);
@@ -188,7 +174,7 @@ TEST_CASE("STL: spheres touch from inside, cover the surface, and are the same a
         for (std::size_t i = 0; i < spheres.size(); ++i) CHECK(spheres[i].centre == again[i].centre);
         MESSAGE(spheres.size() << " spheres, largest hole/r " << largestHole(*stl, spheres, spacing) / r);
     }
-    write(*makeBox(Vec3::Zero(), {0.3, 0.3, 0.02})); // a plate thinner than the spheres
+    writeStl(file, makeBox(Vec3::Zero(), {0.3, 0.3, 0.02})->surface(0.03)); // a plate thinner than the spheres
     const auto plate = makeStl(file);
     const auto thin = surfaceSpheres(*plate, r, spacing);
     checkTouching(*plate, thin);

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Surfaces without holes and exact volumes of solids thinner than an element.
+#include "support/near.hpp"
+#include "support/polyhedra.hpp"
+#include "support/surfaceHoles.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+using namespace flotsam;
+
+TEST_CASE("bodies thinner than an element that touch cut out their volumes, and surfaces are closed")
+{
+    double largest[2] = {}, missing = 0;
+    for (const int dim : {2, 3})
+    {
+        const int n = dim == 2 ? 24 : 12;
+        const double h = 2.0 / n;
+        const CoverScene scene(dim, n);
+        for (const double thickness : {0.3, 0.7, 1.2})
+        {
+            CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+            const double d = thickness * h;
+            const auto log = dim == 2 ? makeCylinder({0, 0, -0.5}, {0, 0, 0.5}, 0.5 * d) : makeCylinder({-0.3, 0, 0}, {0.3, 0, 0}, 0.5 * d);
+            const auto plank = dim == 2 ? makeBox(Vec3::Zero(), {0.4, d, 1}) : makeBox(Vec3::Zero(), {0.5, d, 0.3});
+            for (int k = 0; k < 10; ++k)
+            {
+                // three logs side by side, a plank below them; what is wider than an element beside; overlaps and gaps
+                const double by = 0.002 * h * (k % 5 - 2);
+                const Vec3 along = dim == 2 ? Vec3(1, 0, 0) : Vec3(0, 0, 1);
+                const Vec3 middle(0.05 + 0.017 * k, 0.03 - 0.013 * k, 0.02);
+                std::vector<Solid> solids;
+                for (int j = -1; j <= 1; ++j) solids.push_back(makeSolid(log, middle + j * (d + by) * along, Solid::Kind::Free));
+                solids.push_back(makeSolid(plank, middle - Vec3(0, d + by, 0), Solid::Kind::Free));
+                const bool hasOthers = k >= 5;
+                if (hasOthers && k % 2) solids.push_back(makeSolid(makeBox(Vec3::Zero(), {0.5, 0.5, 0.5}), middle + (1.5 * d + 0.25 + by) * along, Solid::Kind::Fixed));
+                else if (hasOthers) solids.push_back(makeSolid(makeSphere(Vec3::Zero(), 0.3), middle + (0.5 * d + 0.3 + by) * Vec3::UnitY(), Solid::Kind::Free));
+                for (Solid& solid : solids) solid.pose.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(0.01 * k, Vec3::UnitZ()));
+                const Cover& cover = builder.buildExactVolume(solids);
+                largest[hasOthers] = std::max(largest[hasOthers], largestHole(scene, cover, h));
+                for (int s = 0; s < 4; ++s)
+                {
+                    double covered;
+                    const Eigen::Matrix<double, 4, 3> moments = surfaceMoments(scene, cover, s, covered);
+                    const double volume = builder.exactVolume(solids[s]);
+                    for (int c = 0; c < dim; ++c)
+                        for (int r = 0; r <= dim; ++r) missing = std::max(missing, std::abs(moments(r, c) + (r == c + 1 ? volume : 0)) / volume);
+                }
+            }
+        }
+    }
+    std::printf("thin bodies: holes of %.1e alone, %.1e beside others, volumes to %.1e\n", largest[0], largest[1], missing);
+    CHECK(largest[0] < 1e-12);
+    CHECK(largest[1] < 1e-12);
+    CHECK(missing < 1e-10);
+}
+
+TEST_CASE("round bodies and polyhedra thinner than an element have their volume and centre, whatever frame they are given in")
+{
+    const CoverScene scene(3, 12);
+    CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+    const double r = 0.3 * 2 / 12;
+    const Eigen::Quaterniond turned(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
+    TriSurface plank = makeBox(Vec3::Zero(), {1.2 * r, 0.4, 0.3})->surface(1);  // thin by its faces only: its bounds are not
+    for (Vec3& x : plank.points) x = turned * x;
+    for (const auto& shape : {makeClosedSurface(plank), makeSphere(Vec3::Zero(), r), makeCapsule({-0.2, 0, 0}, {0.2, 0, 0}, r), makeCylinder({0, -0.2, 0}, {0, 0.2, 0}, r),
+             makePlaced(makeCylinder({0.1, 0, -0.2}, {0.1, 0, 0.2}, r), turned, -(turned * Vec3(0.1, 0, 0)))})
+    {
+        std::vector<Solid> solids = {makeSolid(shape, {0.03, -0.02, 0.04}, Solid::Kind::Free)};
+        const Cover& cover = builder.buildExactVolume(solids);
+        CHECK(solids[0].isThin);
+        double covered;
+        const Eigen::Matrix<double, 4, 3> moments = surfaceMoments(scene, cover, 0, covered);
+        const double volume = shape->moments().volume;
+        for (int d = 0; d < 3; ++d)
+            for (int k = 0; k < 4; ++k) CHECK(moments(k, d) == within(k == d + 1 ? -volume : 0, 1e-12 * volume / r));
+        CHECK(cover.solidVolume[0] == near(volume, 1e-12));
+    }
+}
+
+// Bars of a rack from bed to lid, upright and inclined; logs of half an element and bodies of several elements against them.
+TEST_CASE("structures thinner than an element are cut as bodies are, also where they reach through the mesh")
+{
+    double largest = 0;
+    for (const int dim : {2, 3})
+    {
+        const int n = dim == 2 ? 24 : 12;
+        const double h = 2.0 / n;
+        const CoverScene scene(dim, n);
+        for (const double thickness : {0.3, 0.7, 1.2})
+            for (int k = 0; k < 8; ++k)
+            {
+                CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+                const double d = thickness * h, by = 0.002 * h * (k % 2 ? 1 : -1), reach = dim == 2 ? 0.5 : 1.5;
+                const bool isRound = k % 2 == 0, isUpright = dim == 2 || k < 6;
+                const auto bar = isRound ? makeCylinder({0, 0, -reach}, {0, 0, reach}, 0.5 * d) : makeBox(Vec3::Zero(), {d, 0.8 * d, 2 * reach});
+                std::vector<Solid> solids;
+                for (int j = 0; j < 2; ++j) solids.push_back(makeSolid(bar, {0.05 + 0.017 * k, 0.03 - 0.013 * k + 3.3 * h * j, 0}, Solid::Kind::Fixed));
+                if (!isUpright) for (Solid& solid : solids) solid.pose.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(0.3, Vec3::UnitY()));
+                if (k > 1) solids.push_back(makeSolid(makeCylinder({0, 0, -0.4}, {0, 0, 0.4}, 0.25 * h), solids[0].pose.position - Vec3(0.5 * d + 0.25 * h + by, 0, 0), Solid::Kind::Free));
+                // its edges away from the bars: docs/numerics, 3.3, Limits
+                const Vec3 beside = 0.5 * (solids[0].pose.position + solids[1].pose.position) - Vec3(0.5 * d + by, 0, 0);
+                if (k > 2 && dim == 2) solids.push_back(makeSolid(makeBox(Vec3::Zero(), {0.5, 6.3 * h, 1}), beside - Vec3(0.25, 0, 0), Solid::Kind::Free));
+                if (k > 2 && dim == 3) solids.push_back(makeSolid(makeSphere(Vec3::Zero(), 0.4), beside - Vec3(0.2, 0, 0), Solid::Kind::Free));
+                for (std::size_t s = 2; s < solids.size(); ++s) solids[s].pose.orientation = solids[0].pose.orientation;
+                const Cover& cover = builder.buildExactVolume(solids);
+                largest = std::max(largest, largestHole(scene, cover, h));
+                const double area = isRound ? M_PI * 0.25 * d * d : 0.8 * d * d;
+                for (int s = 0; s < 2; ++s)
+                {
+                    CHECK(solids[s].isThin);
+                    if (isUpright && k < 2) CHECK(cover.solidVolume[s] == near(area * (dim == 2 ? 1 : 2), 1e-10));
+                }
+                // the same beside what has moved meanwhile, but for what is moved by its volume
+                const std::vector<double> volumes = cover.solidVolume;
+                std::vector<Solid> moved = solids;
+                for (Solid& solid : moved) solid.pose.position.x() += solid.kind == Solid::Kind::Free ? -0.01 : 0;
+                largest = std::max(largest, largestHole(scene, builder.buildExactVolume(moved), h));
+                const Cover& again = builder.buildExactVolume(solids);
+                for (std::size_t s = 0; s < volumes.size() && (k < 3 || dim == 2); ++s) CHECK(again.solidVolume[s] == volumes[s]);
+            }
+    }
+    std::printf("thin structures: holes of %.1e\n", largest);
+    CHECK(largest < 1e-9);
+}
