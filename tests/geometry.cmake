@@ -8,6 +8,7 @@ flotsam_test(cover unit SOURCES unit/cover.cpp LIBRARIES flotsam_geometry flotsa
 flotsam_test(thinSolids unit SOURCES unit/thinSolids.cpp LIBRARIES flotsam_geometry flotsam_test_support RANKS 1 2)
 flotsam_test(closedSurfaces unit SOURCES unit/closedSurfaces.cpp LIBRARIES flotsam_geometry flotsam_test_support RANKS 1 2)
 flotsam_test(closedThinSurfaces unit SOURCES unit/closedThinSurfaces.cpp LIBRARIES flotsam_geometry flotsam_test_support RANKS 1 2)
+flotsam_test(unionCuts unit SOURCES unit/unionCuts.cpp LIBRARIES flotsam_geometry flotsam_test_support RANKS 1 2)
 flotsam_test(wallFilm unit SOURCES unit/wallFilm.cpp LIBRARIES flotsam_geometry flotsam_test_support RANKS 1 2)
 flotsam_test(wallJoints unit SOURCES unit/wallJoints.cpp LIBRARIES flotsam_geometry flotsam_test_support RANKS 1 2)
 flotsam_test(movingStructures unit SOURCES unit/movingStructures.cpp LIBRARIES flotsam_geometry flotsam_test_support RANKS 1 2)

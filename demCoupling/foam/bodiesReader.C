@@ -266,9 +266,13 @@ namespace
 
 bool isCutLinearly(const BodyDefinition& body)
 {
-    if (body.shape->hasPlaneFaces()) return false;
-    const Vec3 axis = body.pose.orientation*body.shape->symmetry().axis;
-    return roundThickness(*body.shape) == 0 || (body.isPlanar && std::abs(axis[body.planeAxis]) < 1 - 1e-9);
+    for (int k = 0; k < body.shape->nParts(); ++k)
+    {
+        const Shape& part = body.shape->part(k);
+        const Vec3 axis = body.pose.orientation*part.symmetry().axis;
+        if (!part.hasPlaneFaces() && (roundThickness(part) == 0 || (body.isPlanar && std::abs(axis[body.planeAxis]) < 1 - 1e-9))) return true;
+    }
+    return false;
 }
 
 /// Smallest extent of those that count, 0: none does.

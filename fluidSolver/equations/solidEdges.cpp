@@ -10,12 +10,12 @@ namespace flotsam
 namespace
 {
 
-/// Free bodies have none: they go with the water around, and their motion is not known before the solve. Nor have the faces that stand for what is round.
+/// Free bodies have none: they go with the water around, and their motion is not known before the solve. Nor have the faces that stand for what is round, and unions.
 bool hasEdges(const Solid& solid)
 {
     double distance[maxFaces];
     const bool isStructure = solid.kind != Solid::Kind::Free && !(solid.isThin && solid.isLoose);
-    return isStructure && !solid.planeFaces && solid.faceDistances(solid.pose.position, distance) > 1;
+    return isStructure && solid.shape->nParts() == 1 && !SolidPart(solid, 0).isReplaced() && SolidPart(solid, 0).faceDistances(solid.pose.position, distance) > 1;
 }
 
 /// Of the solid's faces the one that a facet group lies on, as a bit; 0: it cuts an edge off and lies on none.
@@ -34,8 +34,9 @@ int faceOf(const FacetGroup<D>& group, const SimplexMesh& mesh, const Solid& sol
     deeper = centre;
     for (int d = 0; d < D; ++d) deeper[mesh.axes[d]] += length*group.normal[d];
     double here[maxFaces], inside[maxFaces];
-    const int n = solid.faceDistances(centre, here);
-    solid.faceDistances(deeper, inside);
+    const SolidPart part(solid, 0);
+    const int n = part.faceDistances(centre, here);
+    part.faceDistances(deeper, inside);
     const auto face = std::min_element(here, here + n, [](double l, double r) { return std::abs(l) < std::abs(r); }) - here;
     return here[face] - inside[face] > leastCosine*length ? 1 << face : 0;
 }

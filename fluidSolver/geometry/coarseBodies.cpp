@@ -16,6 +16,8 @@ namespace
 
 constexpr double unknownThickness = std::numeric_limits<double>::infinity();
 
+std::shared_ptr<const Shape> partOf(const Solid& solid, int number) { return {solid.shape, &solid.shape->part(number)}; }
+
 } // namespace
 
 /// Null: not round. Kept per shape.
@@ -36,12 +38,25 @@ double CoverBuilder::thicknessOfPolyhedron(const std::shared_ptr<const Shape>& s
 }
 
 /// Of what can be cut by plane faces [m]; infinite: others. In 2D what is round must stand across the plane: the polyhedron's section is the shape's then.
-double CoverBuilder::thickness(const Solid& solid)
+double CoverBuilder::partThickness(const Solid& solid, const std::shared_ptr<const Shape>& part)
 {
     const Vec3 across = mesh_.dim == 2 ? Vec3(solid.pose.orientation.conjugate() * Vec3::Unit(mesh_.axes[2])) : Vec3(Vec3::Zero());
-    if (solid.shape->hasPlaneFaces()) return thicknessOfPolyhedron(solid.shape, across);
-    const bool isAlongPlane = mesh_.dim == 2 && std::abs(across.dot(solid.shape->symmetry().axis)) < 1 - 1e-9;
-    return facesOfRound(solid.shape) && !isAlongPlane ? roundThickness(*solid.shape) : unknownThickness;
+    if (part->hasPlaneFaces()) return thicknessOfPolyhedron(part, across);
+    const bool isAlongPlane = mesh_.dim == 2 && std::abs(across.dot(part->symmetry().axis)) < 1 - 1e-9;
+    return facesOfRound(part) && !isAlongPlane ? roundThickness(*part) : unknownThickness;
+}
+
+/// Of its thinnest part, if all can be cut by plane faces.
+double CoverBuilder::thickness(const Solid& solid)
+{
+    double least = unknownThickness;
+    for (int k = 0; k < solid.shape->nParts(); ++k)
+    {
+        const double ofPart = partThickness(solid, partOf(solid, k));
+        if (ofPart == unknownThickness) return unknownThickness;
+        least = std::min(least, ofPart);
+    }
+    return least;
 }
 
 void CoverBuilder::chooseThin(std::vector<Solid>& solids)
@@ -52,7 +67,7 @@ void CoverBuilder::chooseThin(std::vector<Solid>& solids)
     {
         solids[s].isThin = false;
         if (thickness(solids[s]) < resolvedThickness * longest_) candidates.push_back(s);
-        else solids[s].planeFaces.reset();
+        else solids[s].planeFaces.clear();
     }
     if (candidates.empty()) return;
     for (const std::size_t s : candidates)
@@ -74,8 +89,10 @@ void CoverBuilder::chooseThin(std::vector<Solid>& solids)
     {
         Solid& solid = solids[candidates[k]];
         solid.isThin = thickness(solid) * lengths[2 * k] < resolvedThickness * lengths[2 * k + 1];
-        solid.planeFaces = solid.isThin ? facesOfRound(solid.shape) : nullptr;
+        solid.planeFaces.clear();
         if (!solid.isThin) continue;
+        for (int part = 0; part < solid.shape->nParts(); ++part) solid.planeFaces.push_back(facesOfRound(partOf(solid, part)));
+        if (needsOffsets(solid)) continue;
         solid.offset = 0; // their volume is exact
         solid.offsetSlope.setZero();
     }
@@ -87,7 +104,7 @@ void CoverBuilder::findThinParts(const std::vector<Solid>& solids)
     nodeFaces_.clear(); // of the poses before
     for (std::size_t s = 0; s < solids.size(); ++s)
     {
-        if (!solids[s].isThin) continue;
+        if (!solids[s].isSharp()) continue;
         const auto add = [&](int e) { if (hasPart(solids[s], e)) thinParts_.push_back({e, static_cast<int>(s)}); };
         forEachLocalAlone(solids[s], samples_[s], add, [](int) { return true; });
     }
@@ -127,7 +144,7 @@ void CoverBuilder::addThinElements(const Cover& cover, const std::vector<Solid>&
 {
     for (int e : thinElements_) thinElement_[e] = ThinElement::None;
     thinElements_.clear();
-    if (std::none_of(solids.begin(), solids.end(), [](const Solid& solid) { return solid.isThin; })) return;
+    if (std::none_of(solids.begin(), solids.end(), [](const Solid& solid) { return solid.isSharp(); })) return;
     thinElement_.resize(mesh_.nElements, ThinElement::None);
     const auto add = [&](int e)
     {
@@ -138,7 +155,7 @@ void CoverBuilder::addThinElements(const Cover& cover, const std::vector<Solid>&
     };
     for (const ThinPart& part : thinParts_) add(part.element);
     for (std::size_t s = 0; s < solids.size(); ++s)
-        for (std::size_t k = 0; solids[s].isThin && k < samples_[s].size(); ++k)
+        for (std::size_t k = 0; solids[s].isSharp() && k < samples_[s].size(); ++k)
         {
             const int i = samples_[s][k].node;
             for (int j = graph_.nodeElementStart[i]; cover.nearestSolid[i] == static_cast<int>(s) && j < graph_.nodeElementStart[i + 1]; ++j)
@@ -154,46 +171,43 @@ CoverBuilder::Others CoverBuilder::othersIn(const Cover& cover, const std::vecto
     for (int a = 0; a <= mesh_.dim; ++a)
     {
         const int s = cover.nearestSolid[nodes[a]];
-        if (s < 0 || solids[s].isThin || solids[s].isCutOnce() || std::find(others.solid, others.solid + others.n, s) != others.solid + others.n) continue;
+        if (s < 0 || solids[s].isSharp() || solids[s].isCutOnce() || std::find(others.solid, others.solid + others.n, s) != others.solid + others.n) continue;
         others.solid[others.n++] = s;
     }
     if (isNear(fixedCover_.distance, element)) others.solid[others.n++] = -1;
     return others;
 }
 
-/// One solid by its faces; several, as elsewhere, by the least of their distances. isApart: they have no part in the element.
+/// Adds one solid by its faces; several, as elsewhere, by the least of their distances.
 template <int dim>
-CoverBuilder::CuttingFaces<dim> CoverBuilder::facesOf(const Others& others, const std::vector<Solid>& solids, int element) const
+void CoverBuilder::facesOf(const Others& others, const std::vector<Solid>& solids, int element, CuttingFaces& faces) const
 {
     const int* nodes = nodesOf(element);
     const int fixed = fixedCover_.nearestSolid[nodes[0]];
     const bool isOneFixed = others.solid[0] < 0 && std::all_of(nodes, nodes + dim + 1, [&](int i) { return fixedCover_.nearestSolid[i] == fixed; });
-    if (others.n == 1 && (others.solid[0] >= 0 || isOneFixed)) return cuttingFaces<dim>(solids[isOneFixed ? fixed : others.solid[0]], element);
-    CuttingFaces<dim> faces;
+    if (others.n == 1 && (others.solid[0] >= 0 || isOneFixed)) return addCuttingFaces<dim>(solids[isOneFixed ? fixed : others.solid[0]], element, faces);
+    double distances[dim + 1];
     int nInside = 0;
     for (int a = 0; a <= dim; ++a)
     {
-        double& least = faces.distances[a] = farDistance;
+        double& least = distances[a] = farDistance;
         for (int k = 0; k < others.n; ++k)
         {
-            const int s = others.solid[k], row = s < 0 ? 0 : nodeFaces_.find(nodes[a], solids[s]);
-            const double* at = s < 0 ? nullptr : nodeFaces_.distances(row);
-            least = std::min(least, s < 0 ? fixedCover_.distance[nodes[a]] : *std::max_element(at, at + nodeFaces_.nFaces(row)));
+            const int s = others.solid[k];
+            least = std::min(least, s < 0 ? fixedCover_.distance[nodes[a]] : nodeFaces_.distance(nodes[a], solids[s]));
         }
         nInside += least < 0;
     }
-    faces.isApart = nInside == 0 || onlyTouches(element, faces.distances, nInside);
-    faces.n = nInside <= dim;
-    return faces;
+    if (onlyTouches(element, distances, nInside)) return;
+    if (nInside <= dim) faces.distances.insert(faces.distances.end(), distances, distances + dim + 1);
+    faces.end.push_back(static_cast<int>(faces.distances.size() / (dim + 1)));
 }
 
-/// The part of a face that is in solids: of each alone, less what pairs of them share.
+/// Without the part of a face that is in solids.
 template <int dim>
-void CoverBuilder::cutPatchFaces(Cover& cover, int element, const std::vector<double>& distances, const std::vector<int>& faceEnd) const
+void CoverBuilder::cutPatchFaces(Cover& cover, int element, const CuttingFaces& faces) const
 {
     constexpr int n = dim + 1;
-    const int nSolids = static_cast<int>(faceEnd.size());
-    const auto first = [&](int s) { return s == 0 ? 0 : faceEnd[s - 1]; };
     for (int corner = 0; corner < n; ++corner)
     {
         if (elementFace_[std::size_t(element) * n + corner] >= 0) continue;
@@ -203,51 +217,36 @@ void CoverBuilder::cutPatchFaces(Cover& cover, int element, const std::vector<do
         for (int a = 0; a < n; ++a)
             for (int b = 0; b < n; ++b)
                 if (a != corner && b != corner) face.second[a * n + b] = (a == b ? 2. : 1.) / (dim * n);
-        const auto subtract = [&](double sign, const std::vector<double>& values)
-        {
-            std::vector<SimplexFacet<dim>> parts;
-            addFacePart<dim>(corner, values.data(), static_cast<int>(values.size()) / n, mesh_.volume[element], verticesOf<dim>(element).data(), &mesh_.gradN[std::size_t(element) * n * dim], parts);
-            for (const SimplexFacet<dim>& part : parts)
-                for (int q = 0; q < dim; ++q)
-                    for (int ab = 0; ab < n * n; ++ab) face.second[ab] -= sign * part.weight[q] / area * part.shape[q][ab / n] * part.shape[q][ab % n];
-        };
-        for (int s = 0; s < nSolids; ++s)
-        {
-            const std::vector<double> own(distances.begin() + first(s) * n, distances.begin() + faceEnd[s] * n);
-            subtract(1, own);
-            for (int t = 0; t < s; ++t)
-            {
-                std::vector<double> both = own;
-                both.insert(both.end(), distances.begin() + first(t) * n, distances.begin() + faceEnd[t] * n);
-                subtract(-1, both);
-            }
-        }
+        std::vector<SimplexFacet<dim>> parts;
+        addFacePart<dim>(corner, faces.distances.data(), faces.end, mesh_.volume[element], verticesOf<dim>(element).data(), &mesh_.gradN[std::size_t(element) * n * dim], parts);
+        for (const SimplexFacet<dim>& part : parts)
+            for (int q = 0; q < dim; ++q)
+                for (int ab = 0; ab < n * n; ++ab) face.second[ab] -= part.weight[q] / area * part.shape[q][ab / n] * part.shape[q][ab % n];
     }
 }
-template void CoverBuilder::cutPatchFaces<2>(Cover&, int, const std::vector<double>&, const std::vector<int>&) const;
-template void CoverBuilder::cutPatchFaces<3>(Cover&, int, const std::vector<double>&, const std::vector<int>&) const;
+template void CoverBuilder::cutPatchFaces<2>(Cover&, int, const CuttingFaces&) const;
+template void CoverBuilder::cutPatchFaces<3>(Cover&, int, const CuttingFaces&) const;
 
 template <int dim>
 void CoverBuilder::cutElementOfSolids(Cover& cover, const std::vector<Solid>& solids, int element) const
 {
     cover.cutIndex[element] = -1;
-    cover.state[element] = ElementState::Fluid;
-    std::vector<double> distances;
-    std::vector<int> faceEnd, solidOf;
-    const auto add = [&](const CuttingFaces<dim>& faces, int solid)
-    {
-        if (faces.isApart) return;
-        distances.insert(distances.end(), faces.distances, faces.distances + faces.n * (dim + 1));
-        faceEnd.push_back(static_cast<int>(distances.size() / (dim + 1)));
-        solidOf.push_back(solid);
-    };
+    cover.state[element] = isDeepIn(cover.distance, element) ? ElementState::Solid : ElementState::Fluid;
+    if (cover.state[element] == ElementState::Solid) return;
+    cutting_.clear();
+    std::vector<int> solidOf; // of the parts
     const ThinPart* end = thinParts_.data() + thinParts_.size();
-    for (const ThinPart* part = partsIn(element); part != end && part->element == element; ++part) add(cuttingFaces<dim>(solids[part->solid], element), part->solid);
+    for (const ThinPart* part = partsIn(element); part != end && part->element == element; ++part)
+    {
+        addCuttingFaces<dim>(solids[part->solid], element, cutting_);
+        solidOf.resize(cutting_.end.size(), part->solid);
+    }
     const Others others = othersIn(cover, solids, element);
-    if (others.n > 0) add(facesOf<dim>(others, solids, element), others.n == 1 && others.solid[0] >= 0 ? others.solid[0] : -1);
-    if (solidOf.empty()) return;
-    cutPatchFaces<dim>(cover, element, distances, faceEnd);
-    const EdgeCut<dim> cut = cutSimplexOfSolids<dim>(distances.data(), faceEnd, mesh_.volume[element], verticesOf<dim>(element).data(), &mesh_.gradN[std::size_t(element) * (dim + 1) * dim]);
+    if (others.n > 0) facesOf<dim>(others, solids, element, cutting_);
+    solidOf.resize(cutting_.end.size(), others.n == 1 ? others.solid[0] : -1);
+    if (cutting_.isApart()) return;
+    cutPatchFaces<dim>(cover, element, cutting_);
+    const EdgeCut<dim> cut = cutAtEdge<dim>(cutting_, element);
     storeCut<dim>(cover, solids, element, cut, cut.facets.data(), static_cast<int>(cut.facets.size()), solidOf.data());
 }
 template void CoverBuilder::cutElementOfSolids<2>(Cover&, const std::vector<Solid>&, int) const;

@@ -29,6 +29,12 @@ Symmetry commonSymmetry(const Symmetry& a, const Symmetry& b, double size)
 
 } // namespace
 
+UnionShape::UnionShape(std::vector<std::shared_ptr<const Shape>> parts) : parts_(std::move(parts))
+{
+    for (const auto& part : parts_)
+        for (int k = 0; k < part->nParts(); ++k) cutParts_.emplace_back(part, &part->part(k));
+}
+
 double UnionShape::distance(const Vec3& x) const
 {
     double d = parts_[0]->distance(x);
@@ -95,6 +101,7 @@ TriSurface UnionShape::surface(double size) const
 PlacedShape::PlacedShape(std::shared_ptr<const Shape> shape, const Eigen::Quaterniond& rotation, const Vec3& translation)
     : shape_(std::move(shape)), rotation_(rotation.normalized().toRotationMatrix()), translation_(translation)
 {
+    for (int k = 0; k < shape_->nParts() && shape_->nParts() > 1; ++k) parts_.push_back(makePlaced({shape_, &shape_->part(k)}, rotation, translation));
 }
 
 Symmetry PlacedShape::symmetry() const

@@ -13,9 +13,6 @@ namespace flotsam
 namespace
 {
 
-/// Over the surface's size: STL files have coordinates of six or seven digits. So much may a corner lie off a plane.
-constexpr double roundOff = 1e-5;
-
 /// A face as it is put together from triangles.
 struct Face
 {
@@ -78,7 +75,7 @@ std::shared_ptr<const PlaneFaces> convexFaces(const TriSurface& surface)
         lower = lower.cwiseMin(x);
         upper = upper.cwiseMax(x);
     }
-    const double tolerance = roundOff * (upper - lower).norm();
+    const double tolerance = planeTolerance * (upper - lower).norm();
     const auto result = std::make_shared<PlaneFaces>();
     for (const Face& face : joinFacets(surface, tolerance))
     {

@@ -73,7 +73,7 @@ constexpr double farDistance = 1e30;
 struct Cover
 {
     /// nNodes: signed distance to the nearest solid [m], negative inside, never 0; farDistance far away. Of a solid that is cut by its faces
-    /// (Solid::faceDistances) the largest of the distances from them.
+    /// (SolidPart::faceDistances) the largest of the distances from them.
     std::vector<double> distance;
     std::vector<int> nearestSolid;      ///< nNodes: index of that solid, -1 far away
     std::vector<ElementState> state;    ///< nElements

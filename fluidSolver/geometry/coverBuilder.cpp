@@ -63,7 +63,7 @@ CoverBuilder::CoverBuilder(const SimplexMesh& mesh, const NodeGraph& graph, cons
     : mesh_(mesh), graph_(graph), halo_(halo), bins_(mesh, nodeReach(mesh, halo)), film_(mesh, halo), snap_(nodeSnap(mesh, halo)),
       nodeFaces_(mesh, film_, snap_), elementFace_(std::size_t(mesh.nElements) * (mesh.dim + 1), -1), isBoundaryNode_(mesh.nNodes, 0),
       elementMark_(mesh.nElements, 0), nodeMark_(mesh.nNodes, 0), face_(mesh.nNodes, 0), aloneDistance_(mesh.nNodes, farDistance),
-      aloneFace_(mesh.nNodes, 0), isSharedNode_(mesh.nNodes, 0), isNeedless_(doesNeedless("cut"))
+      aloneFace_(mesh.nNodes, 0), partsAt_(mesh.nNodes, 0), isSharedNode_(mesh.nNodes, 0), isNeedless_(doesNeedless("cut"))
 {
     for (std::size_t f = 0; f < graph.faces.size(); ++f)
         for (int side = 0; side < 2; ++side)
@@ -114,9 +114,24 @@ bool CoverBuilder::isNear(const std::vector<double>& distance, int element) cons
     return std::all_of(nodes, nodes + mesh_.dim + 1, [&](int i) { return distance[i] < farDistance; });
 }
 
+bool CoverBuilder::hasSeveralParts(const std::vector<int>& face, int element) const
+{
+    const int* nodes = nodesOf(element);
+    return std::any_of(nodes, nodes + mesh_.dim + 1, [&](int i) { return face[i] == severalParts; });
+}
+
+/// As a whole in one part of a solid: a node is farther from all of its faces than the element is long.
+bool CoverBuilder::isDeepIn(const std::vector<double>& distance, int element) const
+{
+    const int* nodes = nodesOf(element);
+    return std::any_of(nodes, nodes + mesh_.dim + 1, [&](int i) { return distance[i] < -bins_.reach(i); });
+}
+
+/// Cut by the faces of the solid, not by its distance alone.
 bool CoverBuilder::isAtEdge(const std::vector<int>& face, int element) const
 {
     const int* nodes = nodesOf(element);
+    if (face[nodes[0]] == severalParts) return true;
     for (int a = 1; a <= mesh_.dim; ++a)
         if (face[nodes[a]] != face[nodes[0]]) return true;
     return false;

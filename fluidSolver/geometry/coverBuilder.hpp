@@ -16,6 +16,8 @@ namespace flotsam
 
 /// Largest Solid::offset that buildExactVolume sets, over the element length; the share of Solid::offsetSlope comes on top, as large at most.
 constexpr double largestOffset = 0.2;
+/// In place of the nearest face at a node that several parts of a solid are near: between nodes at one of them another may pass. Elements there are cut part by part.
+constexpr int severalParts = -1;
 /// Solids thinner than this are cut by plane faces, exactly also between others; over the element length around them.
 constexpr double resolvedThickness = 1.5;
 
@@ -48,17 +50,19 @@ public:
     double exactVolume(const Solid& solid) { return known(solid).volume; }
 
 private:
-    /// Distance of one solid at a node near it, without the solid's offsets, and the position of the nearest of the shape's faces. film: how far the
-    /// solid is kept off a wall there at least, filmFace: the nearest face then.
+    /// Distance of one part of a solid at a node near it, without the solid's offsets, and the number of the nearest of its faces. film: how far it
+    /// is kept off a wall there at least, filmFace: the nearest face then.
     struct Sample { int node, face, filmFace; double distance, film; };
 
-    /// Distances of a solid's faces at the nodes of one element, without those that have the whole element inside. isApart: one has it outside, and the solid no part in it.
-    template <int dim>
+    /// Distances of the faces of a solid's parts at the nodes of one element, without faces that have the whole element inside and parts that have a face with it outside.
     struct CuttingFaces
     {
-        double distances[(maxFaces + 1) * (dim + 1)];   // room for one more
-        int n = 0;
-        bool isApart = false;
+        std::vector<double> distances;  // by faces, dim+1 each
+        std::vector<int> end;           // of each part's faces
+
+        bool isApart() const { return end.empty(); }    // no part in the element
+        bool isWhole() const { return !end.empty() && (end[0] == 0 || std::adjacent_find(end.begin(), end.end()) != end.end()); }    // it lies in one part as a whole
+        void clear() { distances.clear(); end.clear(); }
     };
 
     /// Element of fixed solids that closeFaces() may have given facets, and the node beyond the face.
@@ -117,6 +121,7 @@ private:
 
     std::shared_ptr<const PlaneFaces> facesOfRound(const std::shared_ptr<const Shape>& shape);
     double thicknessOfPolyhedron(const std::shared_ptr<const Shape>& shape, const Vec3& across);
+    double partThickness(const Solid& solid, const std::shared_ptr<const Shape>& part);
     double thickness(const Solid& solid);
     void findThinParts(const std::vector<Solid>& solids);
     const ThinPart* partsIn(int element) const;
@@ -125,16 +130,17 @@ private:
     bool hasPart(const Solid& solid, int element);
     bool isAmongThin(int element) const { return !thinElements_.empty() && thinElement_[element] != ThinElement::None; }
     Others othersIn(const Cover& cover, const std::vector<Solid>& solids, int element) const;
-    template <int dim> CuttingFaces<dim> facesOf(const Others& others, const std::vector<Solid>& solids, int element) const;
+    template <int dim> void facesOf(const Others& others, const std::vector<Solid>& solids, int element, CuttingFaces& faces) const;
     template <int dim> void cutElementOfSolids(Cover& cover, const std::vector<Solid>& solids, int element) const;
-    template <int dim> void cutPatchFaces(Cover& cover, int element, const std::vector<double>& distances, const std::vector<int>& faceEnd) const;
-    unsigned facesBeyond(const Solid& solid) const;
+    template <int dim> void cutPatchFaces(Cover& cover, int element, const CuttingFaces& faces) const;
+    unsigned facesBeyond(const Solid& solid, int part) const;
     static bool needsOffsets(const Solid& solid);
     static bool isSameFixed(const Solid& now, const Solid& then);
     bool sameFixedSolids(const std::vector<Solid>& solids) const;
     void cutFixedSolids(const std::vector<Solid>& solids);
     void sampleMovingSolids(const std::vector<Solid>& solids);
     void sample(const Solid& solid, std::vector<Sample>& samples) const;
+    void samplePart(const Solid& solid, int part, std::vector<Sample>& samples) const;
     void correctOffsets(std::vector<Solid>& solids);
     void correctFixedOffsets(std::vector<Solid>& solids);
     double volumeInside(const Solid& solid, const std::vector<Sample>& samples);
@@ -167,6 +173,8 @@ private:
     template <class Visit> void forEachElementOf(const Sample& sample, double distance, const std::vector<int>& face, Visit visit) const;
     bool isNear(const std::vector<double>& distance, int element) const;
     bool isAtEdge(const std::vector<int>& face, int element) const;
+    bool hasSeveralParts(const std::vector<int>& face, int element) const;
+    bool isDeepIn(const std::vector<double>& distance, int element) const;
     bool isOnBoundary(int element) const;
     void restoreFixedCover();
     void cutFarElements(const std::vector<Solid>& solids);
@@ -186,8 +194,8 @@ private:
     void storeCut(Cover& cover, const std::vector<Solid>& solids, int element, const SimplexMoments<dim>& cut,
         const SimplexFacet<dim>* facets, int nFacets, const int* solidOf = nullptr) const; // solidOf: of SimplexFacet::solid, -1: by the place
     template <int dim> std::array<double, (dim + 1) * dim> verticesOf(int element) const;
-    template <int dim> CuttingFaces<dim> cuttingFaces(const Solid& solid, int element) const;
-    template <int dim> EdgeCut<dim> cutAtEdge(const CuttingFaces<dim>& faces, int element) const;
+    template <int dim> void addCuttingFaces(const Solid& solid, int element, CuttingFaces& faces) const;
+    template <int dim> EdgeCut<dim> cutAtEdge(const CuttingFaces& faces, int element) const;
     int solidAt(const Cover& cover, const std::vector<Solid>& solids, int element, const double* shape) const;
     void copyFixedCuts();
     void findGhostFaces(Cover& cover) const;
@@ -206,6 +214,7 @@ private:
     WallFilm film_;
     std::vector<double> snap_;          // nNodes: distance that counts as solid [m]
     mutable NodeFaces nodeFaces_;
+    mutable CuttingFaces cutting_;      // scratch
     std::vector<int> elementFace_;      // nElements*(dim+1): position in graph.faces, -1 at the boundary
     std::vector<char> isBoundaryNode_;
     std::array<double, 3> lower_{}, upper_{};   // of the whole mesh, in its plane
@@ -226,6 +235,7 @@ private:
     std::vector<int> face_;             // nNodes: face of the nearest solid, of cover_
     std::vector<double> aloneDistance_; // nNodes, scratch
     std::vector<int> aloneFace_;        // nNodes, scratch
+    mutable std::vector<char> partsAt_; // nNodes, scratch: parts of one solid that are near
     std::vector<KnownVolume> knownVolumes_;
     std::vector<RoundShape> roundShapes_;
     std::vector<Polyhedron> polyhedra_;
@@ -255,8 +265,10 @@ void CoverBuilder::forEachLocalAlone(const Solid& solid, const std::vector<Sampl
 {
     for (const Sample& s : samples)
     {
-        aloneDistance_[s.node] = cutDistance(solid, s);
-        aloneFace_[s.node] = cutFace(s, aloneDistance_[s.node]);
+        const double distance = cutDistance(solid, s);
+        if (distance >= aloneDistance_[s.node]) continue; // of another part
+        aloneDistance_[s.node] = distance;
+        aloneFace_[s.node] = cutFace(s, distance);
     }
     ++mark_;
     for (const Sample& s : samples)
@@ -295,12 +307,13 @@ void CoverBuilder::visitCutAlone(const Solid& solid, int element, Visit visit) c
     }
     if (*std::max_element(distance, distance + dim + 1) >= farDistance) return;
     const SimplexFacet<dim>* none = nullptr;
-    if (nSolid == dim + 1) visit(SimplexMoments<dim>{}, none, 0);
+    if (nSolid == dim + 1 && (!isAtEdge(aloneFace_, element) || !hasSeveralParts(aloneFace_, element) || isDeepIn(aloneDistance_, element))) visit(SimplexMoments<dim>{}, none, 0);
     else if (isAtEdge(aloneFace_, element))
     {
-        const CuttingFaces<dim> faces = cuttingFaces<dim>(solid, element);
-        if (faces.isApart) return;
-        const EdgeCut<dim> cut = cutAtEdge<dim>(faces, element);
+        cutting_.clear();
+        addCuttingFaces<dim>(solid, element, cutting_);
+        if (cutting_.isApart()) return;
+        const EdgeCut<dim> cut = cutAtEdge<dim>(cutting_, element);
         visit(cut, cut.facets.data(), static_cast<int>(cut.facets.size()));
     }
     else if (nSolid > 0)

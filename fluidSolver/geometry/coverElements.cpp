@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace flotsam
 {
@@ -31,7 +32,8 @@ SimplexCut<dim> wholeSimplex(double volume)
 
 void CoverBuilder::cutElement(Cover& cover, const std::vector<Solid>& solids, int element) const
 {
-    if (isAmongThin(element)) return mesh_.dim == 2 ? cutElementOfSolids<2>(cover, solids, element) : cutElementOfSolids<3>(cover, solids, element);
+    const bool isPlain = isAmongThin(element) && thinElement_[element] == ThinElement::Alone && !solids[cover.nearestSolid[nodesOf(element)[0]]].isThin;
+    if (isAmongThin(element) && !isPlain) return mesh_.dim == 2 ? cutElementOfSolids<2>(cover, solids, element) : cutElementOfSolids<3>(cover, solids, element);
     double distance[4];
     int nSolid = 0;
     for (int a = 0; a <= mesh_.dim; ++a)
@@ -41,7 +43,7 @@ void CoverBuilder::cutElement(Cover& cover, const std::vector<Solid>& solids, in
     }
     if (onlyTouches(element, distance, nSolid)) nSolid = 0;
     cover.cutIndex[element] = -1;
-    if (nSolid == mesh_.dim + 1) cover.state[element] = ElementState::Solid;
+    if (nSolid == mesh_.dim + 1 && !(isPlain && hasSeveralParts(face_, element))) cover.state[element] = ElementState::Solid;
     else if (nSolid == 0 && !isAtEdgeOfOne(cover, element) && !endsAtEdge(cover, element)) cover.state[element] = ElementState::Fluid;
     else if (mesh_.dim == 2) cutElementOf<2>(cover, solids, element, distance);
     else cutElementOf<3>(cover, solids, element, distance);
@@ -106,48 +108,57 @@ template std::array<double, 6> CoverBuilder::verticesOf<2>(int) const;
 template std::array<double, 12> CoverBuilder::verticesOf<3>(int) const;
 
 template <int dim>
-CoverBuilder::CuttingFaces<dim> CoverBuilder::cuttingFaces(const Solid& solid, int element) const
+void CoverBuilder::addCuttingFaces(const Solid& solid, int element, CuttingFaces& faces) const
 {
     int rows[dim + 1];
-    const double* at[dim + 1];
     for (int a = 0; a <= dim; ++a) rows[a] = nodeFaces_.find(nodesOf(element)[a], solid);
-    for (int a = 0; a <= dim; ++a) at[a] = nodeFaces_.distances(rows[a]);
-    CuttingFaces<dim> cutting;
-    for (int k = 0; k < nodeFaces_.nFaces(rows[0]); ++k)
+    for (int part = 0; part < solid.shape->nParts(); ++part)
     {
-        double* values = cutting.distances + cutting.n * (dim + 1);
-        int nInside = 0;
-        for (int a = 0; a <= dim; ++a)
+        const std::size_t before = faces.distances.size();
+        bool isApart = false;
+        for (int k = 0; k < nodeFaces_.nFaces(rows[0] + part) && !isApart; ++k)
         {
-            values[a] = at[a][k];
-            nInside += values[a] < 0;
+            double values[dim + 1];
+            int nInside = 0;
+            for (int a = 0; a <= dim; ++a)
+            {
+                values[a] = nodeFaces_.distances(rows[a] + part)[k];
+                nInside += values[a] < 0;
+            }
+            isApart = onlyTouches(element, values, nInside);
+            if (nInside <= dim) faces.distances.insert(faces.distances.end(), values, values + dim + 1);
         }
-        if (onlyTouches(element, values, nInside)) cutting.isApart = true;
-        if (nInside <= dim) ++cutting.n;
+        if (isApart) faces.distances.resize(before);
+        else faces.end.push_back(static_cast<int>(faces.distances.size() / (dim + 1)));
     }
-    return cutting;
 }
-template CoverBuilder::CuttingFaces<2> CoverBuilder::cuttingFaces<2>(const Solid&, int) const;
-template CoverBuilder::CuttingFaces<3> CoverBuilder::cuttingFaces<3>(const Solid&, int) const;
+template void CoverBuilder::addCuttingFaces<2>(const Solid&, int, CuttingFaces&) const;
+template void CoverBuilder::addCuttingFaces<3>(const Solid&, int, CuttingFaces&) const;
 
 template <int dim>
-EdgeCut<dim> CoverBuilder::cutAtEdge(const CuttingFaces<dim>& faces, int element) const
+EdgeCut<dim> CoverBuilder::cutAtEdge(const CuttingFaces& faces, int element) const
 {
-    return cutSimplexAtEdge<dim>(faces.distances, faces.n, mesh_.volume[element], verticesOf<dim>(element).data(), &mesh_.gradN[std::size_t(element) * (dim + 1) * dim]);
+    const auto vertices = verticesOf<dim>(element);
+    const double* gradN = &mesh_.gradN[std::size_t(element) * (dim + 1) * dim];
+    if (faces.isWhole()) return {};
+    if (faces.end.size() == 1 && faces.end[0] == 1) return EdgeCut<dim>(cutSimplex<dim>(faces.distances.data(), mesh_.volume[element], vertices.data(), gradN));
+    return faces.end.size() == 1 ? cutSimplexAtEdge<dim>(faces.distances.data(), faces.end[0], mesh_.volume[element], vertices.data(), gradN)
+                                 : cutSimplexOfSolids<dim>(faces.distances.data(), faces.end, mesh_.volume[element], vertices.data(), gradN);
 }
-template EdgeCut<2> CoverBuilder::cutAtEdge<2>(const CuttingFaces<2>&, int) const;
-template EdgeCut<3> CoverBuilder::cutAtEdge<3>(const CuttingFaces<3>&, int) const;
+template EdgeCut<2> CoverBuilder::cutAtEdge<2>(const CuttingFaces&, int) const;
+template EdgeCut<3> CoverBuilder::cutAtEdge<3>(const CuttingFaces&, int) const;
 
 template <int dim>
 void CoverBuilder::cutElementAtEdge(Cover& cover, const std::vector<Solid>& solids, int element, const double* distance) const
 {
     cover.state[element] = ElementState::Fluid;
     const Solid& solid = solids[cover.nearestSolid[nodesOf(element)[0]]];
-    const CuttingFaces<dim> faces = cuttingFaces<dim>(solid, element);
-    if (faces.isApart) return;
+    cutting_.clear();
+    addCuttingFaces<dim>(solid, element, cutting_);
+    if (cutting_.isApart()) return;
     const bool isBody = solid.kind == Solid::Kind::Free || solid.isLoose; // held or not: its cut must not jump as it is let go
-    if (!isBody && isOnBoundary(element)) cutPatchFaces<dim>(cover, element, {faces.distances, faces.distances + faces.n * (dim + 1)}, {faces.n});
-    const EdgeCut<dim> cut = cutAtEdge<dim>(faces, element);
+    if (!isBody && isOnBoundary(element)) cutPatchFaces<dim>(cover, element, cutting_);
+    const EdgeCut<dim> cut = cutAtEdge<dim>(cutting_, element);
     if (cut.facets.empty() && *std::min_element(distance, distance + dim + 1) > 0) return;
     storeCut<dim>(cover, solids, element, cut, cut.facets.data(), static_cast<int>(cut.facets.size()));
 }
@@ -174,10 +185,16 @@ void CoverBuilder::closeFaces(const Cover& cover, const std::vector<Solid>& soli
     {
         if (!endsAtEdge(cover, element, corner)) continue;
         const Solid& solid = solids[cover.nearestSolid[nodesOf(element)[corner == 0]]];
-        CuttingFaces<dim> faces = cuttingFaces<dim>(solid, element);
-        if (faces.isApart) continue;
-        for (int a = 0; a <= dim; ++a) faces.distances[faces.n * (dim + 1) + a] = -distance[a];
-        addFacePart<dim>(corner, faces.distances, faces.n + 1, mesh_.volume[element], verticesOf<dim>(element).data(),
+        cutting_.clear();
+        addCuttingFaces<dim>(solid, element, cutting_);
+        double inFluid[dim + 1];
+        std::transform(distance, distance + dim + 1, inFluid, std::negate<>());
+        for (std::size_t part = 0; part < cutting_.end.size(); ++part)
+        {
+            cutting_.end[part] += static_cast<int>(part + 1);
+            cutting_.distances.insert(cutting_.distances.begin() + (cutting_.end[part] - 1) * (dim + 1), inFluid, inFluid + dim + 1);
+        }
+        addFacePart<dim>(corner, cutting_.distances.data(), cutting_.end, mesh_.volume[element], verticesOf<dim>(element).data(),
             &mesh_.gradN[std::size_t(element) * (dim + 1) * dim], facets);
     }
 }

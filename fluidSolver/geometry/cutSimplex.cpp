@@ -32,7 +32,7 @@ public:
         return std::move(result_);
     }
 
-    /// The part inside of all faces of the simplex's own face opposite to `corner`.
+    /// The part in the solids of the simplex's own face opposite to `corner`.
     std::vector<SimplexFacet<dim>> cutOwnFace(int corner)
     {
         Point face[dim] = {};
@@ -40,7 +40,7 @@ public:
             if (a != corner) face[i++].n[a] = 1;
         double opposite[dim + 1] = {};  // falls towards the face
         opposite[corner] = 1;
-        cutFacet(face, opposite, 0, 0);
+        for (int solid = 0; solid < nSolids_; ++solid) cutFacet(face, opposite, solid, solid == 0 ? 0 : faceEnd_[solid - 1]);
         return std::move(result_.facets);
     }
 
@@ -353,9 +353,9 @@ EdgeCut<dim> cutSimplexOfSolids(const double* distances, const std::vector<int>&
 }
 
 template <int dim>
-void addFacePart(int corner, const double* distances, int nFaces, double volume, const double* vertices, const double* gradN, std::vector<SimplexFacet<dim>>& facets)
+void addFacePart(int corner, const double* distances, const std::vector<int>& faceEnd, double volume, const double* vertices, const double* gradN, std::vector<SimplexFacet<dim>>& facets)
 {
-    const std::vector<SimplexFacet<dim>> parts = EdgeCutter<dim>(distances, &nFaces, 1, volume, vertices, gradN).cutOwnFace(corner);
+    const std::vector<SimplexFacet<dim>> parts = EdgeCutter<dim>(distances, faceEnd.data(), static_cast<int>(faceEnd.size()), volume, vertices, gradN).cutOwnFace(corner);
     facets.insert(facets.end(), parts.begin(), parts.end());
 }
 
@@ -367,7 +367,7 @@ template EdgeCut<2> cutSimplexAtEdge<2>(const double*, int, double, const double
 template EdgeCut<3> cutSimplexAtEdge<3>(const double*, int, double, const double*, const double*);
 template EdgeCut<2> cutSimplexOfSolids<2>(const double*, const std::vector<int>&, double, const double*, const double*);
 template EdgeCut<3> cutSimplexOfSolids<3>(const double*, const std::vector<int>&, double, const double*, const double*);
-template void addFacePart<2>(int, const double*, int, double, const double*, const double*, std::vector<SimplexFacet<2>>&);
-template void addFacePart<3>(int, const double*, int, double, const double*, const double*, std::vector<SimplexFacet<3>>&);
+template void addFacePart<2>(int, const double*, const std::vector<int>&, double, const double*, const double*, std::vector<SimplexFacet<2>>&);
+template void addFacePart<3>(int, const double*, const std::vector<int>&, double, const double*, const double*, std::vector<SimplexFacet<3>>&);
 
 } // namespace flotsam

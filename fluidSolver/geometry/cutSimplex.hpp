@@ -54,6 +54,9 @@ template <int dim>
 struct EdgeCut : SimplexMoments<dim>
 {
     std::vector<SimplexFacet<dim>> facets;
+
+    EdgeCut() : SimplexMoments<dim>{} {}
+    explicit EdgeCut(const SimplexCut<dim>& cut) : SimplexMoments<dim>(cut), facets(cut.facets, cut.facets + cut.nFacets) {}
 };
 
 /// The solid is where all of several distances are negative: an edge or a corner between the faces of a body is not cut off, and may lie in
@@ -66,8 +69,8 @@ EdgeCut<dim> cutSimplexAtEdge(const double* distances, int nFaces, double volume
 template <int dim>
 EdgeCut<dim> cutSimplexOfSolids(const double* distances, const std::vector<int>& faceEnd, double volume, const double* vertices, const double* gradN);
 
-/// Adds the part of a simplex's face, the one opposite to `corner`, where all of several distances (as above) are negative; normals out of the simplex.
+/// Adds the part of a simplex's face, the one opposite to `corner`, that lies in the solids (as above); normals out of the simplex.
 template <int dim>
-void addFacePart(int corner, const double* distances, int nFaces, double volume, const double* vertices, const double* gradN, std::vector<SimplexFacet<dim>>& facets);
+void addFacePart(int corner, const double* distances, const std::vector<int>& faceEnd, double volume, const double* vertices, const double* gradN, std::vector<SimplexFacet<dim>>& facets);
 
 } // namespace flotsam

@@ -19,6 +19,7 @@ constexpr int maxSteps = 12;
 constexpr double largestGain = 4;       // of volume, over what a step expects
 constexpr double nearVolume = 0.01;     // missing over the volume: the step from here is the last
 constexpr double rightVolume = 0.004;   // of thin parts: no step from here
+constexpr double rightPlanes = 1e-6;    // of plane faces, whose cut is the same in every place: volume, and centre over the radius; no step from here
 constexpr double thinVolume = 0.6;      // over surface times element: of a plate half of its thickness, of a rod half of its radius, over the element
 
 struct Section { double area; bool isMean; };
@@ -42,10 +43,14 @@ Section planeSection(const Shape& shape, const Vec3& direction, double height)
 
 } // namespace
 
-/// A shape with all faces plane is cut exactly as it is.
+/// A shape with all faces plane is cut exactly as it is, and so is what is cut in place of a round one; not so what round parts of a union share.
 bool CoverBuilder::needsOffsets(const Solid& solid)
 {
-    return !solid.planeFaces && !solid.shape->hasPlaneFaces();
+    const int n = solid.shape->nParts();
+    if (n == 1 && !solid.planeFaces.empty()) return false;
+    for (int k = 0; k < n; ++k)
+        if (!solid.shape->part(k).hasPlaneFaces()) return true;
+    return false;
 }
 
 const CoverBuilder::KnownVolume& CoverBuilder::known(const Solid& solid)
@@ -140,6 +145,8 @@ bool CoverBuilder::moveSurface(OffsetSearch& search, Solid& solid, const OwnCut&
         search.bestOffset = solid.offset;
         search.bestSlope = solid.offsetSlope;
     }
+    const double right = solid.isThin ? rightPlanes * exact.volume : 0;
+    if (std::abs(missing[0]) < right && missing.tail<3>().norm() < right * solid.radius()) return false;
     if (isLast || (isThin && search.nSteps > 1 && search.least < rightVolume * exact.volume)) return settle();
     if (search.nSteps > maxNewtonSteps) return bracketSurface(search, solid, missing[0], own) || settle();
     takeNewtonStep(search, solid, missing, own, exact.hasCentroid);

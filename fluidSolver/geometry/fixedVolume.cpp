@@ -121,7 +121,7 @@ void CoverBuilder::correctFixedOffsets(std::vector<Solid>& solids)
     std::vector<Moved> moved;
     for (std::size_t s = 0; s < solids.size(); ++s)
     {
-        if (!solids[s].isCutOnce() || solids[s].wall != Solid::Wall::Slip || !needsOffsets(solids[s])) continue;
+        if (solids[s].kind != Solid::Kind::Fixed || solids[s].wall != Solid::Wall::Slip || !needsOffsets(solids[s])) continue;
         if (hasFixedCover_ && s < fixedSolids_.size() && isSameFixed(solids[s], fixedSolids_[s])) continue;
         solids[s].offset = 0;
         moved.push_back({&solids[s], {}});

@@ -17,24 +17,33 @@ int NodeFaces::find(int node, const Solid& solid)
     int& position = position_[node];
     if (position >= 0 && rows_[position].solid == &solid) return position;
     position = static_cast<int>(rows_.size());
-    evaluate(rows_.emplace_back(Row{&solid, node, 0, {}}));
+    for (int part = 0; part < solid.shape->nParts(); ++part) evaluate(rows_.emplace_back(Row{&solid, node, 0, {}}), part);
     return position;
 }
 
-void NodeFaces::evaluate(Row& row) const
+double NodeFaces::distance(int node, const Solid& solid)
 {
+    const int row = find(node, solid);
+    double least = 1e300;
+    for (int k = row; k < row + solid.shape->nParts(); ++k) least = std::min(least, *std::max_element(distances(k), distances(k) + nFaces(k)));
+    return least;
+}
+
+void NodeFaces::evaluate(Row& row, int number) const
+{
+    const SolidPart part(*row.solid, number);
     const auto x = mesh_.spacePoint(row.node);
     const Vec3 place(x[0], x[1], x[2]);
-    row.nFaces = row.solid->faceDistances(place, row.distances);
+    row.nFaces = part.faceDistances(place, row.distances);
     if (row.nFaces > 0)
     {
-        film_.lift(row.node, *row.solid, row.nFaces, row.distances);
-        film_.join(row.node, *row.solid, row.nFaces, row.distances);
+        film_.lift(row.node, part, row.nFaces, row.distances);
+        film_.join(row.node, part, row.nFaces, row.distances);
     }
     else
     {
         row.nFaces = 1;
-        row.distances[0] = film_.joined(row.node, *row.solid, std::max(row.solid->distance(place), film_.thickness(row.node, *row.solid)));
+        row.distances[0] = film_.joined(row.node, part, std::max(part.plainDistance(place) - row.solid->offsetAt(place), film_.thickness(row.node, part)));
     }
     for (int k = 0; k < row.nFaces; ++k) row.distances[k] = snapped(row.distances[k], snap_[row.node]);
 }

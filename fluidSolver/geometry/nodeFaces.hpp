@@ -22,17 +22,20 @@ public:
     /// To be called when solids have moved.
     void clear();
 
-    /// Row of a solid at a node, valid until clear(). A node knows the row of the solid that was asked for last.
+    /// Row of a solid's first part at a node, those of the other parts follow; valid until clear(). A node knows the row of the solid that was asked for last.
     int find(int node, const Solid& solid);
 
-    /// As the cut sees them: Solid::faceDistances, of shapes without faces Solid::distance(), off the walls, never 0. Valid until find().
+    /// As the cut sees them: SolidPart::faceDistances, of shapes without faces their distance, off the walls, never 0. Valid until find().
     const double* distances(int row) const { return rows_[row].distances; }
     int nFaces(int row) const { return rows_[row].nFaces; }
+
+    /// Of the solid: the largest distance of the faces of the part where that is least.
+    double distance(int node, const Solid& solid);
 
 private:
     struct Row { const Solid* solid; int node, nFaces; double distances[maxFaces]; };
 
-    void evaluate(Row& row) const;
+    void evaluate(Row& row, int part) const;
 
     const SimplexMesh& mesh_;
     const WallFilm& film_;

@@ -8,6 +8,9 @@
 namespace flotsam
 {
 
+/// Over a surface's size: STL files have coordinates of six or seven digits. So much may a corner lie off the plane of its face.
+constexpr double planeTolerance = 1e-5;
+
 /// The faces of a convex polyhedron.
 struct PlaneFaces
 {

@@ -92,6 +92,8 @@ public:
     double distance(const Vec3& x) const override { return shape_->distance(toInner(x)); }
     int faceDistances(const Vec3& x, double* distances) const override { return shape_->faceDistances(toInner(x), distances); }
     bool hasPlaneFaces() const override { return shape_->hasPlaneFaces(); }
+    int nParts() const override { return shape_->nParts(); }
+    const Shape& part(int number) const override { return parts_.empty() ? *this : *parts_[number]; }
     Symmetry symmetry() const override;
     std::array<Vec3, 2> bounds() const override;
     VolumeMoments moments() const override;
@@ -105,13 +107,16 @@ private:
     std::shared_ptr<const Shape> shape_;
     Eigen::Matrix3d rotation_;
     Vec3 translation_;
+    std::vector<std::shared_ptr<const Shape>> parts_;   // placed ones, of a union
 };
 
 class UnionShape : public Shape
 {
 public:
-    explicit UnionShape(std::vector<std::shared_ptr<const Shape>> parts) : parts_(std::move(parts)) {}
+    explicit UnionShape(std::vector<std::shared_ptr<const Shape>> parts);
     double distance(const Vec3& x) const override;
+    int nParts() const override { return static_cast<int>(cutParts_.size()); }
+    const Shape& part(int number) const override { return *cutParts_[number]; }
     std::array<Vec3, 2> bounds() const override;
     /// Found at the first call.
     VolumeMoments moments() const override;
@@ -122,7 +127,7 @@ public:
     const std::vector<std::shared_ptr<const Shape>>& parts() const { return parts_; }
 
 private:
-    std::vector<std::shared_ptr<const Shape>> parts_;
+    std::vector<std::shared_ptr<const Shape>> parts_, cutParts_;    // cutParts_: Shape::part() of the parts
     mutable std::once_flag isIntegrated_;
     mutable VolumeMoments moments_;
 };

@@ -57,6 +57,10 @@ public:
     /// Whether all faces of faceDistances() are plane.
     virtual bool hasPlaneFaces() const { return false; }
 
+    /// Shapes that it is the union of, none of them of several parts: a union's, of an STL file with few plane faces convex ones, of others itself.
+    virtual int nParts() const { return 1; }
+    virtual const Shape& part(int /*number*/) const { return *this; }
+
     virtual Symmetry symmetry() const { return {}; }
 
     /// Axis-aligned bounding box {lower, upper} in the shape's frame [m].

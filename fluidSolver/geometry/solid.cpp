@@ -4,13 +4,29 @@
 namespace flotsam
 {
 
+namespace
+{
+
+/// In space, of a shape in a solid's frame whose surface is moved by its offsets.
+std::array<Vec3, 2> boundsInSpace(const Shape& shape, const Solid& solid)
+{
+    const auto [lower, upper] = shape.bounds();
+    const Eigen::Matrix3d rotation = solid.pose.orientation.toRotationMatrix();
+    const Vec3 centre = solid.pose.position + rotation * (0.5 * (lower + upper));
+    const Vec3 half = (rotation.cwiseAbs() * (0.5 * (upper - lower))).array() + solid.offsetBound();
+    return {Vec3(centre - half), Vec3(centre + half)};
+}
+
+} // namespace
+
 std::array<Vec3, 2> Solid::spaceBounds() const
 {
-    const auto [lower, upper] = shape->bounds();
-    const Eigen::Matrix3d rotation = pose.orientation.toRotationMatrix();
-    const Vec3 centre = pose.position + rotation * (0.5 * (lower + upper));
-    const Vec3 half = (rotation.cwiseAbs() * (0.5 * (upper - lower))).array() + offsetBound();
-    return {Vec3(centre - half), Vec3(centre + half)};
+    return boundsInSpace(*shape, *this);
+}
+
+std::array<Vec3, 2> SolidPart::spaceBounds() const
+{
+    return boundsInSpace(*shape_, *solid_);
 }
 
 Eigen::Matrix3d Solid::turning() const

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Closed triangulated surface as a shape. Sign of the distance by angle-weighted pseudo-normals: Baerentzen and Aanaes,
 /// IEEE Trans. Vis. Comput. Graph. 11 (2005) 243-253, doi:10.1109/TVCG.2005.49.
+#include "geometry/convexParts.hpp"
 #include "geometry/planeFaces.hpp"
 #include "geometry/stlReader.hpp"
 #include "geometry/triSurface.hpp"
@@ -54,6 +55,8 @@ public:
     double distance(const Vec3& x) const override;
     int faceDistances(const Vec3& x, double* distances) const override { return faces_ ? faces_->distances(x, distances) : 0; }
     bool hasPlaneFaces() const override { return faces_ != nullptr; }
+    int nParts() const override { return std::max(1, static_cast<int>(parts_.size())); }
+    const Shape& part(int number) const override { return parts_.empty() ? *this : *parts_[number]; }
     std::array<Vec3, 2> bounds() const override { return {tree_[0].lower, tree_[0].upper}; }
     VolumeMoments moments() const override { return enclosedMoments(surface_); }
     TriSurface surface(double) const override { return surface_; }
@@ -75,12 +78,14 @@ private:
 
     TriSurface surface_;
     std::shared_ptr<const PlaneFaces> faces_;   // of a convex polyhedron, else null
+    std::vector<std::shared_ptr<const Shape>> parts_;   // of one that is not
     std::vector<Triangle> triangles_;   // in the order of the leaves
     std::vector<Branch> tree_;
 };
 
 StlShape::StlShape(TriSurface surface) : surface_(std::move(surface)), faces_(convexFaces(surface_))
 {
+    if (!faces_) parts_ = convexParts(surface_);
     triangles_ = makeTriangles();
     tree_.reserve(2 * triangles_.size());
     tree_.emplace_back();

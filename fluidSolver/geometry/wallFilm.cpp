@@ -148,15 +148,9 @@ void WallFilm::findFaces(const Halo& halo)
     }
 }
 
-/// Without the offset, which the cut still looks for.
-double WallFilm::plainDistance(const Solid& solid, const Vec3& x)
-{
-    return solid.shape->distance(solid.pose.orientation.conjugate()*(x - solid.pose.position));
-}
-
 /// 1: the solid reaches into a face of the wall at the node; 0: it stays a film's thickness away from all of them. distances: of its faces, at the node;
 /// shift: to be added to those elsewhere.
-double WallFilm::touch(const WallNode& wall, const Solid& solid, int nFaces, const double* distances, double shift) const
+double WallFilm::touch(const WallNode& wall, const SolidPart& part, int nFaces, const double* distances, double shift) const
 {
     const int nOthers = mesh_.dim - 1;
     const double film = filmThickness*wall.height;
@@ -167,7 +161,7 @@ double WallFilm::touch(const WallNode& wall, const Solid& solid, int nFaces, con
         std::copy_n(distances, nFaces, face[0].begin());
         for (int k = 0; k < nOthers; ++k)
         {
-            solid.faceDistances(corners_[c + k], face[1 + k].data());
+            part.faceDistances(corners_[c + k], face[1 + k].data());
             for (int f = 0; f < nFaces; ++f) face[1 + k][f] += shift;
         }
         if (!comesNearer(face, (1 - most)*film, nFaces)) continue;
@@ -190,13 +184,13 @@ Vec3 WallFilm::pointOver(int i, const WallNode& wall, double heights) const
     return Vec3(x[0], x[1], x[2]) - heights*wall.height*wall.normal;
 }
 
-double WallFilm::thickness(int i, const Solid& solid) const
+double WallFilm::thickness(int i, const SolidPart& part) const
 {
-    const WallNode* wall = wallNode(i, solid);
+    const WallNode* wall = wallNode(i, part.solid());
     if (!wall) return noFilm;
     // beside the solid as far as the film is thick: no jump as its edges pass the node
     const double film = filmThickness*wall->height;
-    return plainDistance(solid, pointOver(i, *wall, reachOfFilm)) < film ? film : noFilm;
+    return part.plainDistance(pointOver(i, *wall, reachOfFilm)) < film ? film : noFilm;
 }
 
 double WallFilm::share(int i, const Solid& solid, double distance) const
@@ -205,18 +199,18 @@ double WallFilm::share(int i, const Solid& solid, double distance) const
     return wall ? std::clamp(1 - distance/wall->height, 0.0, 1.0) : 0;
 }
 
-double WallFilm::lift(int i, const Solid& solid, int nFaces, double* distances, double nearer) const
+double WallFilm::lift(int i, const SolidPart& part, int nFaces, double* distances, double nearer) const
 {
-    const WallNode* wall = wallNode(i, solid);
+    const WallNode* wall = wallNode(i, part.solid());
     if (!wall) return noFilm;
     const std::array<double, 3> x = mesh_.spacePoint(i);
     double here[maxFaces], over[maxFaces];
-    solid.faceDistances(Vec3(x[0], x[1], x[2]), here);
-    solid.faceDistances(pointOver(i, *wall, reachOfFilm), over);
+    part.faceDistances(Vec3(x[0], x[1], x[2]), here);
+    part.faceDistances(pointOver(i, *wall, reachOfFilm), over);
     const double film = filmThickness*wall->height;
     for (int k = 0; k < nFaces; ++k) distances[k] -= nearer*wall->height;
     // a round side lies on the wall at its line alone, but with all of it: what is lifted under it goes on beside its ends
-    const bool isFlat = solid.shape->symmetry().kind == Symmetry::Kind::None;
+    const bool isFlat = part.shape().symmetry().kind == Symmetry::Kind::None;
     const bool isBeside = isFlat && *std::max_element(distances, distances + nFaces) >= film;
     double ofSteep = isBeside ? -1 : 1;     // lifted beside the solid only where it reaches into the wall, with an edge between nodes; -1: not asked yet
     bool isLifted = false;
@@ -226,7 +220,7 @@ double WallFilm::lift(int i, const Solid& solid, int nFaces, double* distances, 
         const double cosine = (here[k] - over[k])/(reachOfFilm*wall->height);
         if (distances[k] >= film || cosine <= facingCosine) continue;
         const bool isSteep = cosine <= flatCosine;
-        if (isSteep && ofSteep < 0) ofSteep = touch(*wall, solid, nFaces, unlifted.data(), -nearer*wall->height);
+        if (isSteep && ofSteep < 0) ofSteep = touch(*wall, part, nFaces, unlifted.data(), -nearer*wall->height);
         const double share = isSteep ? ofSteep : 1;
         distances[k] += share*(film - distances[k]);
         isLifted = isLifted || share > 0;

@@ -24,21 +24,21 @@ public:
     WallFilm(const SimplexMesh& mesh, const Halo& halo);
 
     /// Distance that a solid less than half an element over a wall keeps from its node at least [m]; noFilm: no such node, no such solid.
-    double thickness(int node, const Solid& solid) const;
+    double thickness(int node, const SolidPart& part) const;
 
     /// Of a solid that is cut by its faces: signed distances of the faces at the node. Those that look at the wall are kept off it. Thickness as above; noFilm: there are none.
     /// nearer: as if all faces were nearer by this, over the height of the elements on the wall.
-    double lift(int node, const Solid& solid, int nFaces, double* distances, double nearer = 0) const;
+    double lift(int node, const SolidPart& part, int nFaces, double* distances, double nearer = 0) const;
 
     /// FilmNode::share of a solid `distance` away from the node [m].
     double share(int node, const Solid& solid, double distance) const;
 
     /// Distance that the cut has of a solid `distance` away from the node [m]: that, or just inside of a structure that moves and has come as near to the wall as
     /// makes no difference, at the node and all around it (wallJoints.cpp).
-    double joined(int node, const Solid& solid, double distance) const;
+    double joined(int node, const SolidPart& part, double distance) const;
 
     /// The same of a solid that is cut by its faces: signed distances of the faces at the node.
-    void join(int node, const Solid& solid, int nFaces, double* distances) const;
+    void join(int node, const SolidPart& part, int nFaces, double* distances) const;
 
 private:
     struct WallNode
@@ -48,12 +48,11 @@ private:
         std::size_t firstCorner = 0, endCorner = 0; // in corners_
     };
 
-    static double plainDistance(const Solid& solid, const Vec3& x);
     const WallNode* wallNode(int node, const Solid& solid) const;
     const WallNode* jointNode(int node, const Solid& solid) const;
     Vec3 pointOver(int node, const WallNode& wall, double heights) const;
     void findFaces(const Halo& halo);
-    double touch(const WallNode& wall, const Solid& solid, int nFaces, const double* distances, double shift) const;
+    double touch(const WallNode& wall, const SolidPart& part, int nFaces, const double* distances, double shift) const;
 
     const SimplexMesh& mesh_;
     std::vector<int> position_;         // nNodes: in nodes_, -1: not on a wall

@@ -27,11 +27,11 @@ const WallFilm::WallNode* WallFilm::jointNode(int i, const Solid& solid) const
     return solid.kind == Solid::Kind::Prescribed && !solid.isLoose && position_[i] >= 0 ? &nodes_[position_[i]] : nullptr;
 }
 
-double WallFilm::joined(int i, const Solid& solid, double distance) const
+double WallFilm::joined(int i, const SolidPart& part, double distance) const
 {
-    const WallNode* wall = jointNode(i, solid);
+    const WallNode* wall = jointNode(i, part.solid());
     if (!wall || distance <= 0 || distance >= closedGap*wall->height) return distance;
-    const auto from = [&](const Vec3& x) { return plainDistance(solid, x - lifted*wall->height*wall->normal); };
+    const auto from = [&](const Vec3& x) { return part.plainDistance(x - lifted*wall->height*wall->normal); };
     const auto isNear = [&](const Vec3& x) { return from(x) < closedGap*wall->height; };
     const auto corner = corners_.begin();
     const bool isClosed = from(pointOver(i, *wall, 0)) < 0 && std::all_of(corner + wall->firstCorner, corner + wall->endCorner, isNear);
@@ -40,9 +40,9 @@ double WallFilm::joined(int i, const Solid& solid, double distance) const
 
 /// Face by face, as far as its plane goes: where the structure ends over the wall its other faces go on to it. Left open, the gap would end in an element of the rim as a sliver
 /// whose nodes are in nothing else.
-void WallFilm::join(int i, const Solid& solid, int nFaces, double* distances) const
+void WallFilm::join(int i, const SolidPart& part, int nFaces, double* distances) const
 {
-    const WallNode* wall = jointNode(i, solid);
+    const WallNode* wall = jointNode(i, part.solid());
     if (!wall) return;
     const double gap = closedGap*wall->height;
     std::array<bool, maxFaces> isClosed{};
@@ -50,7 +50,7 @@ void WallFilm::join(int i, const Solid& solid, int nFaces, double* distances) co
     const auto keep = [&](const Vec3& x, double limit)
     {
         double over[maxFaces];
-        solid.faceDistances(x - lifted*wall->height*wall->normal, over);
+        part.faceDistances(x - lifted*wall->height*wall->normal, over);
         for (int k = 0; k < nFaces; ++k) isClosed[k] = isClosed[k] && over[k] < limit;
         return std::any_of(isClosed.begin(), isClosed.end(), [](bool is) { return is; });
     };

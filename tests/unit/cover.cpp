@@ -147,7 +147,7 @@ TEST_CASE("states, cut indices and facets fit together")
             for (const Solid& s : solids)
             {
                 double faces[maxFaces];
-                const int nFaces = s.faceDistances({x[0], x[1], x[2]}, faces);
+                const int nFaces = SolidPart(s, 0).faceDistances({x[0], x[1], x[2]}, faces);
                 exact = std::min(exact, nFaces > 0 ? *std::max_element(faces, faces + nFaces) : s.distance({x[0], x[1], x[2]}));
             }
             const double h = 2.0 / (dim == 2 ? 40 : 16);

@@ -55,3 +55,24 @@ TEST_CASE("2D: a trunk that reaches into its root wad, lapped planks and a plank
         CHECK(acceleration < 0.01);
     }
 }
+
+TEST_CASE("unions of parts thinner than an element float half immersed: a trunk with its wad, a cross")
+{
+    for (const int dim : {2, 3})
+        for (const double thickness : {0.4, 0.8, 1.3})
+        {
+            const double t = 0.5*thickness*h, l = 2.5*h, z = dim == 2 ? 0.5 : t;
+            const auto rod = [&](const Vec3& from, const Vec3& to) { return dim == 2 ? makeBox(0.5*(from + to), Vec3((to - from).norm(), 2*t, 1)) : makeCylinder(from, to, t); };
+            const Shapes tree = {rod({-l, 0, 0}, {l, 0, 0}), boxFrom({-l, -2*t, dim == 2 ? -z : -2*z}, {-l + 3*t, 2*t, dim == 2 ? z : 2*z})};
+            std::vector<std::pair<const char*, Shapes>> cases = {{"trunk with its wad", tree}, {"plus", {boxFrom({-l, -t, -z}, {l, t, z}), boxFrom({-t, -l, -z}, {t, l, z})}}};
+            if (dim == 3) cases[1] = {"cross", {rod({-l, 0, 0}, {l, 0, 0}), makeCapsule({0, -l, 0}, {0, l, 0}, t)}};
+            for (const auto& [name, parts] : cases)
+            {
+                CAPTURE(name);
+                CAPTURE(thickness);
+                const double acceleration = largestAcceleration(dim, parts);
+                std::printf("%dD, %s, %.1f elements thick: %.1e g\n", dim, name, thickness, acceleration);
+                CHECK(acceleration < 0.01);
+            }
+        }
+}

@@ -13,13 +13,14 @@ SIDE, END, LAST = 0.02, 5.0, 0.5
 SECTIONS = {"square 0.59": (0.02, 0.59, 35), "square 0.85": (0.02, 0.85, 25), "square 0.25": (0.02, 0.25, 10), "square 0.15": (0.02, 0.15, 25),
             "plank 2:1 0.59": (0.04, 0.59, 25)}
 FROM_STL = {"square 0.85, STL": "square 0.85"}     # the same bar as a triangulated surface
+OF_PARTS = {"square 0.85, union": "square 0.85"}   # as two lapped boxes
 
 title = """Bars with a square section of 0.02 m and a plank of 0.04 m x 0.02 m, 2D, named with the relative density, released turned in a liquid of water's density and a thousand times its
 viscosity, at rest after 5 s. Theory: the attitude of least potential energy that the turn at the start leads to, at which the displaced liquid weighs as much as the bar: a square floats on
 a flat side for s < 0.211 and s > 0.789, corner down for 0.281 < s < 0.719 and askew between (E. N. Gilbert, Am. Math. Monthly 98 (1991) 201). N elements over 0.02 m. "STL": the bar is read from
-an STL file."""
+an STL file; "union": it is one of two boxes that lap."""
 
-runs = [Run("flotsamFoam", n, name, quick=(n == 6 and name == "square 0.59"), timeLimit=2400) for n in (6, 10) for name in [*SECTIONS, *FROM_STL]]
+runs = [Run("flotsamFoam", n, name, quick=(n == 6 and name == "square 0.59"), timeLimit=2400) for n in (6, 10) for name in [*SECTIONS, *FROM_STL, *OF_PARTS]]
 
 
 def resolution(run):
@@ -27,12 +28,15 @@ def resolution(run):
 
 
 def section(run):
-    return SECTIONS[FROM_STL.get(run.variant, run.variant)]
+    return SECTIONS[{**FROM_STL, **OF_PARTS}.get(run.variant, run.variant)]
 
 
 def shape(run, width):
     if run.variant in FROM_STL:
         return {"constant/triSurface/bar.stl": stlBox((width, SIDE, 0.05))}, 'type stl; file "bar.stl";'
+    if run.variant in OF_PARTS:
+        part = "{{ type box; centre ({0:g} 0 0); size ({1:g} {2:g} 0.05); }}"
+        return {}, f"type union; parts {{ left {part.format(-0.2 * width, 0.6 * width, SIDE)} right {part.format(0.15 * width, 0.7 * width, SIDE)} }}"
     return {}, f"type box; size ({width:g} {SIDE:g} 0.05);"
 
 
