@@ -16,6 +16,7 @@
 #include "symmetryPolyPatch.H"
 
 #include <algorithm>
+#include <cmath>
 
 namespace flotsam
 {
@@ -25,10 +26,23 @@ namespace
 
 Solid::Wall readWallKind(const Foam::dictionary& dict)
 {
-    const std::string kind = dict.getOrDefault<Foam::word>("wall", "noSlip");
+    const std::string kind = readWordOr(dict, "wall", "noSlip");
     if (kind == "noSlip") return Solid::Wall::NoSlip;
     if (kind == "slip") return Solid::Wall::Slip;
     failUnknown(dict, "wall", kind, {"noSlip", "slip"});
+}
+
+/// At times of no common period: an oscillation may turn back at one of them.
+void checkPlanarMotion(const Foam::dictionary& dict, const std::string& name, const PrescribedMotion& prescribed, const SceneFrame& frame)
+{
+    if (!prescribed) return;
+    for (const double time : {0.0, 1.0, M_SQRT2})
+    {
+        Pose pose;
+        Motion motion;
+        prescribed(time, pose, motion);
+        checkPlanarMotion(subGroup(dict, "motion"), "structure " + name, motion, frame);
+    }
 }
 
 void readStructureGroup(const std::string& name, const Foam::dictionary& dict, const SceneFrame& frame, BodiesInput& input)
@@ -37,7 +51,7 @@ void readStructureGroup(const std::string& name, const Foam::dictionary& dict, c
     const auto shape = readShape(subGroup(dict, "shape"), frame.stlFolder);
     const Pose first = readPose(dict);
     const double facetSize = readNumberOr(dict, "facetSize", 0.25*thinnestExtent(*shape, frame), positive);
-    const bool touches = dict.getOrDefault<bool>("contact", true);
+    const bool touches = readFlagOr(dict, "contact", true);
     bool isArray = false;
     int i = 0;
     for (const Vec3& offset : readArray(dict, isArray))
@@ -52,6 +66,7 @@ void readStructureGroup(const std::string& name, const Foam::dictionary& dict, c
         s.solid.shape = shape;
         s.solid.pose = {first.position + offset, first.orientation};
         s.motion = readMotion(dict, s.solid.pose);
+        checkPlanarMotion(dict, name, s.motion, frame);
         s.solid.kind = s.motion ? Solid::Kind::Prescribed : Solid::Kind::Fixed;
         if (s.motion) s.motion(0, s.solid.pose, s.solid.motion);
         readContactSpheres(dict, frame, s);
@@ -93,14 +108,15 @@ std::vector<std::string> wallPatches(const Foam::dictionary& dict, const Foam::p
         if (patch.type() == "wall" || Foam::isA<Foam::symmetryPolyPatch>(patch) || Foam::isA<Foam::symmetryPlanePolyPatch>(patch)) walls.push_back(patch.name());
     }
     if (!dict.found("wallPatches")) return walls;
-    if (dict.lookup("wallPatches")[0].isWord())
+    const Foam::ITstream& given = valueOf(dict, "wallPatches", "all, none, or names of patches in round brackets");
+    if (!given.empty() && given[0].isWord())
     {
-        const Foam::word choice = dict.get<Foam::word>("wallPatches");
+        const std::string choice = readWord(dict, "wallPatches");
         if (choice != "all" && choice != "none") failUnknown(dict, "wallPatches", choice, {"all", "none", "(names of patches)"});
         return choice == "all" ? walls : std::vector<std::string>();
     }
     walls.clear();
-    for (const Foam::word& name : dict.get<Foam::wordList>("wallPatches"))
+    for (const std::string& name : readWords(dict, "wallPatches"))
     {
         if (std::find(all.begin(), all.end(), name) == all.end()) failUnknown(dict, "patch", name, all);
         walls.push_back(name);

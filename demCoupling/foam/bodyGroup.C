@@ -30,7 +30,7 @@ double readMass(const Foam::dictionary& dict, double volume)
 
 bool readEntersAtRelease(const Foam::dictionary& dict)
 {
-    const std::string before = dict.getOrDefault<Foam::word>("beforeRelease", "held");
+    const std::string before = readWordOr(dict, "beforeRelease", "held");
     if (before != "held" && before != "absent") failUnknown(dict, "beforeRelease", before, {"held", "absent"});
     return before == "absent";
 }
@@ -63,20 +63,6 @@ void checkPlanar(const BodyGroup& group, const BodyDefinition& body, const Scene
             " is ", extent, " m, the mesh's ", frame.thickness, " m.\n    Use a box or cylinder of that length along ", "xyz"[frame.planeAxis], "."));
 }
 
-/// In a 2D mesh a body moves in its plane and turns across it.
-void checkPlanarMotion(const Foam::dictionary& dict, const BodyDefinition& body, const SceneFrame& frame)
-{
-    if (!frame.isPlanar) return;
-    for (int k = 0; k < 3; ++k)
-    {
-        const bool isAcross = k == frame.planeAxis;
-        const double found = isAcross ? body.motion.velocity[k] : body.motion.angularVelocity[k];
-        if (found == 0) continue;
-        failIn(dict, text("2D mesh, one cell along ", "xyz"[frame.planeAxis], ": ", isAcross ? "velocity" : "angularVelocity", " of body ", body.name, " along ", "xyz"[k], " is ",
-            found, "; allowed: 0."));
-    }
-}
-
 /// Of a body that is not there at the start with what is fixed alone: whether its place is free is seen when it comes in.
 std::optional<Conflict> conflictOf(const BodyGroup& group, const BodyDefinition& body, const Obstacles& obstacles, double minGap)
 {
@@ -96,13 +82,14 @@ BodyDefinition member(const BodyGroup& group, const SceneFrame& frame, const std
     body.motion = {readVec3Or(dict, "velocity", Vec3::Zero()), readVec3Or(dict, "angularVelocity", Vec3::Zero())};
     body.releaseTime = readNumberOr(dict, "releaseTime", 0, notNegative);
     checkPlanar(group, body, frame);
-    checkPlanarMotion(dict, body, frame);
+    checkPlanarMotion(dict, "body " + body.name, body.motion, frame);
     return body;
 }
 
 void placeList(BodyGroup& group, const SceneFrame& frame)
 {
-    const Foam::List<Foam::dictionary> poses(group.dict->lookup("poses"));
+    const auto poses = readAs<Foam::List<Foam::dictionary>>(*group.dict, "poses",
+        "a list of groups in round brackets, with ';' after every value: ( { position (x y z); } { .. } )");
     if (poses.empty()) failIn(*group.dict, "'poses' is empty: list at least one { position (..); }.");
     forAll(poses, i)
     {
@@ -138,16 +125,16 @@ RandomPlacement readRandom(const Foam::dictionary& dict)
 {
     checkKeywords(dict, {"count", "box", "seed", "minGap", "tries", "orientation", "release"});
     RandomPlacement r;
-    dict.get<Foam::label>("count");
-    r.count = readCountOr(dict, "count", 1, {1, largestCount});
+    r.count = readCount(dict, "count", {1, largestCount});
     r.tries = readCountOr(dict, "tries", 1000, {1, 1e7});
     r.seed = readCountOr(dict, "seed", 1, {0, 2147483647});
     r.minGap = readNumberOr(dict, "minGap", 0, notNegative);
-    r.orientation = dict.getOrDefault<Foam::word>("orientation", "fixed");
+    r.orientation = readWordOr(dict, "orientation", "fixed");
     const std::vector<std::string> known{"random", "uniformYaw", "fixed"};
     if (std::find(known.begin(), known.end(), r.orientation) == known.end()) failUnknown(dict, "orientation", r.orientation, known);
-    const Foam::List<Foam::vector> corners(dict.lookup("box"));
-    if (corners.size() != 2) failIn(dict, "'box' must be two corners: ((xmin ymin zmin) (xmax ymax zmax)).");
+    const std::string what = "two corners: ((xmin ymin zmin) (xmax ymax zmax))";
+    const auto corners = readAs<Foam::List<Foam::vector>>(dict, "box", what);
+    if (corners.size() != 2) failValue(dict, "box", what);
     for (int d = 0; d < 3; ++d)
     {
         if (corners[0][d] > corners[1][d]) failIn(dict, "'box': the first corner must hold the smaller coordinates.");
@@ -253,6 +240,20 @@ void placeRandomly(BodyGroup& group, const SceneFrame& frame, Obstacles& obstacl
 }
 
 } // namespace
+
+void checkPlanarMotion(const Foam::dictionary& dict, const std::string& name, const Motion& motion, const SceneFrame& frame)
+{
+    if (!frame.isPlanar) return;
+    constexpr double roundOff = 1e-9;   // of a direction
+    for (int k = 0; k < 3; ++k)
+    {
+        const bool isAcross = k == frame.planeAxis;
+        const Vec3& all = isAcross ? motion.velocity : motion.angularVelocity;
+        if (std::abs(all[k]) <= roundOff*all.norm()) continue;
+        failIn(dict, text("2D mesh, one cell along ", "xyz"[frame.planeAxis], ": ", isAcross ? "velocity" : "angularVelocity", " of ", name, " along ", "xyz"[k], " is ",
+            all[k], "; allowed: 0."));
+    }
+}
 
 void readSpheres(const Foam::dictionary& dict, double thinnest, double& radius, double& spacing)
 {

@@ -2,9 +2,6 @@
 #include "demCoupling/foam/contactReader.H"
 #include "foam/dictionaryChecks.H"
 
-#include "Switch.H"
-#include "wordList.H"
-
 #include <algorithm>
 
 namespace flotsam
@@ -20,8 +17,10 @@ std::vector<std::string> materialNames(const Foam::dictionary& bodies)
     if (bodies.isDict("materials"))
         for (const Foam::word& name : subGroup(bodies, "materials").toc()) names.push_back(name);
     else
-        for (const Foam::word& name : bodies.get<Foam::wordList>("materials")) names.push_back(name);
+        names = readWords(bodies, "materials");
     if (names.empty()) failIn(bodies, "'materials' is empty: list at least one name, for instance (wood steel).");
+    for (auto name = names.begin(); name != names.end(); ++name)
+        if (std::find(names.begin(), name, *name) != name) failIn(bodies, text("'materials' has '", *name, "' twice: give every material once."));
     return names;
 }
 
@@ -32,8 +31,8 @@ ContactLaw readLaw(const Foam::dictionary& dict, ContactLaw base)
     base.stiffness = readNumberOr(dict, "stiffness", base.stiffness, positive, "Spring constant of a touching sphere [N/m].");
     base.restitution = readNumberOr(dict, "restitution", base.restitution, {0.01, 1}, "0.2 for wet wood; 1: no energy is lost.");
     base.frictionAngleDeg = readNumberOr(dict, "frictionAngle", base.frictionAngleDeg, {0, 85}, "Degrees; 30 is a friction coefficient of 0.58.");
-    base.perBody = dict.getOrDefault<Foam::Switch>("perBody", base.perBody);
-    base.flatRestitution = dict.getOrDefault<Foam::Switch>("flatRestitution", base.flatRestitution);
+    base.perBody = readFlagOr(dict, "perBody", base.perBody);
+    base.flatRestitution = readFlagOr(dict, "flatRestitution", base.flatRestitution);
     return base;
 }
 
@@ -79,7 +78,7 @@ int readMaterial(const Foam::dictionary& dict, const char* keyword, const std::v
         if (names.size() > 1) failIn(dict, text("Entry '", keyword, "' is missing; one of: ", joined(names), "."));
         return 0;
     }
-    const std::string name = dict.get<Foam::word>(keyword);
+    const std::string name = readWord(dict, keyword, names);
     const auto at = std::find(names.begin(), names.end(), name);
     if (at == names.end()) failUnknown(dict, "material", name, names);
     return static_cast<int>(at - names.begin());

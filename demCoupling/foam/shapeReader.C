@@ -11,6 +11,8 @@ namespace flotsam
 namespace
 {
 
+const std::vector<std::string> shapeTypes{"box", "sphere", "cylinder", "capsule", "stl", "union"}, motionTypes{"linear", "oscillating", "rotating"};
+
 Vec3 readSize(const Foam::dictionary& dict)
 {
     const Vec3 size = readVec3(dict, "size");
@@ -87,7 +89,7 @@ PrescribedMotion rotation(const Foam::dictionary& dict, const Pose& start)
 
 Vec3 readVec3(const Foam::dictionary& dict, const char* keyword)
 {
-    const Foam::vector v = dict.get<Foam::vector>(keyword);
+    const auto v = readAs<Foam::vector>(dict, keyword, "three numbers in round brackets: (x y z)");
     return Vec3(v.x(), v.y(), v.z());
 }
 
@@ -98,7 +100,7 @@ Vec3 readVec3Or(const Foam::dictionary& dict, const char* keyword, const Vec3& b
 
 std::shared_ptr<const Shape> readShape(const Foam::dictionary& dict, const Foam::fileName& stlFolder)
 {
-    const std::string type = dict.get<Foam::word>("type");
+    const std::string type = readWord(dict, "type", shapeTypes);
     try
     {
         if (type == "box")
@@ -121,7 +123,7 @@ std::shared_ptr<const Shape> readShape(const Foam::dictionary& dict, const Foam:
         if (type == "stl")
         {
             checkKeywords(dict, {"type", "file", "scale"});
-            return makeStl(stlFolder/dict.get<Foam::fileName>("file"), readNumberOr(dict, "scale", 1, positive));
+            return makeStl(stlFolder/readAs<Foam::fileName>(dict, "file", "the name of a file below constant/triSurface"), readNumberOr(dict, "scale", 1, positive));
         }
         if (type == "union")
         {
@@ -133,7 +135,7 @@ std::shared_ptr<const Shape> readShape(const Foam::dictionary& dict, const Foam:
     {
         failIn(dict, error.what());
     }
-    failUnknown(dict, "shape type", type, {"box", "sphere", "cylinder", "capsule", "stl", "union"});
+    failUnknown(dict, "shape type", type, shapeTypes);
 }
 
 Eigen::Quaterniond readOrientation(const Foam::dictionary& parent)
@@ -154,11 +156,11 @@ PrescribedMotion readMotion(const Foam::dictionary& parent, const Pose& start)
 {
     if (!parent.found("motion")) return {};
     const Foam::dictionary& dict = subGroup(parent, "motion");
-    const std::string type = dict.get<Foam::word>("type");
+    const std::string type = readWord(dict, "type", motionTypes);
     if (type == "linear") return linearMotion(dict, start);
     if (type == "oscillating") return oscillation(dict, start);
     if (type == "rotating") return rotation(dict, start);
-    failUnknown(dict, "motion type", type, {"linear", "oscillating", "rotating"});
+    failUnknown(dict, "motion type", type, motionTypes);
 }
 
 PrincipalShape toPrincipalFrame(std::shared_ptr<const Shape> shape)

@@ -88,12 +88,15 @@ void readEntry(const Foam::dictionary& dict, const ControlEntry& entry, Numerics
     else
     {
         bool& flag = numerics.*std::get<bool NumericsControls::*>(entry.member);
-        flag = dict.getOrDefault<bool>(entry.keyword, flag);
+        flag = readFlagOr(dict, entry.keyword, flag);
     }
 }
 
 double readDimensioned(const Foam::dictionary& dict, const char* keyword, const Foam::dimensionSet& dims)
 {
+    const std::string what = text("a number ", toString(positive));
+    const Foam::ITstream& given = valueOf(dict, keyword, what); // also with dimensions before it
+    if (given.empty() || !given.last().isNumber()) failValue(dict, keyword, what);
     const double value = Foam::dimensionedScalar(keyword, dims, dict).value();
     checkRange(dict, keyword, value, positive);
     return value;
@@ -101,7 +104,7 @@ double readDimensioned(const Foam::dictionary& dict, const char* keyword, const 
 
 void checkNewtonian(const Foam::dictionary& dict)
 {
-    const Foam::word model = dict.getOrDefault<Foam::word>("transportModel", "Newtonian");
+    const std::string model = readWordOr(dict, "transportModel", "Newtonian");
     if (model != "Newtonian")
         failIn(dict, text("transportModel ", model, " is not modelled; allowed: Newtonian. Give a constant nu."));
 }
@@ -114,7 +117,7 @@ void warnSurfaceTension(double sigma)
 
 void readTwoFluids(const Foam::dictionary& transport, CaseControls& controls)
 {
-    const Foam::wordList phases = transport.get<Foam::wordList>("phases");
+    const std::vector<std::string> phases = readWords(transport, "phases");
     if (phases.size() != 2)
         failIn(transport, text("Entry 'phases' lists ", phases.size(), " names; give two: (liquid gas), the liquid first."));
     FluidProperties& fluid = controls.fluid;
@@ -282,7 +285,7 @@ NumericsControls readNumerics(const Foam::dictionary& fvSolution)
 TimeControls readTimeControls(const Foam::dictionary& controlDict)
 {
     TimeControls time;
-    time.adjustTimeStep = controlDict.getOrDefault<bool>("adjustTimeStep", false);
+    time.adjustTimeStep = readFlagOr(controlDict, "adjustTimeStep", false);
     time.deltaT = readNumber(controlDict, "deltaT", positive);
     time.maxCo = readNumberOr(controlDict, "maxCo", time.maxCo, positive);
     time.maxCo = std::min(time.maxCo, readNumberOr(controlDict, "maxAlphaCo", time.maxCo, positive));

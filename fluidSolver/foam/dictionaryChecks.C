@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam/dictionaryChecks.H"
 
+#include "ITstream.H"
 #include "OStringStream.H"
 #include "Pstream.H"
+#include "Switch.H"
 #include "error.H"
+#include "wordList.H"
 
 #include <algorithm>
 #include <cctype>
@@ -24,22 +27,24 @@ void letMasterSpeak()
     if (!isCaught && Foam::Pstream::parRun() && !Foam::Pstream::master()) std::this_thread::sleep_for(std::chrono::seconds(5));
 }
 
-} // namespace
-
-void failIn(const Foam::dictionary& dict, const std::string& message)
+/// Place: a dictionary, or the stream of an entry, which knows its line.
+template<class Place>
+[[noreturn]] void failAt(const Place& place, const std::string& message)
 {
     letMasterSpeak();
-    FatalIOErrorInFunction(dict) << message.c_str() << Foam::nl << Foam::exit(Foam::FatalIOError);
+    FatalIOErrorInFunction(place) << message.c_str() << Foam::nl << Foam::exit(Foam::FatalIOError);
     throw std::logic_error(message); // never reached: exit() ends the run or throws
 }
+
+} // namespace
+
+void failIn(const Foam::dictionary& dict, const std::string& message) { failAt(dict, message); }
 
 const Foam::dictionary& subGroup(const Foam::dictionary& dict, const std::string& keyword)
 {
     if (!dict.found(keyword)) failIn(dict, text("Entry '", keyword, " { .. }' is missing."));
     if (dict.isDict(keyword)) return dict.subDict(keyword);
-    Foam::OStringStream found;
-    for (const Foam::token& t : dict.lookup(keyword)) found << (found.str().empty() ? "" : " ") << t;
-    failIn(dict, text("Entry '", keyword, "' is '", found.str(), "', but must be a group of entries in braces: ", keyword, " { .. }"));
+    failValue(dict, keyword, text("a group of entries in braces: ", keyword, " { .. }"));
 }
 
 std::string toString(const Foam::dimensionSet& dimensions)
@@ -148,6 +153,42 @@ std::vector<std::pair<std::string, std::string>> misspeltEntries(const Foam::dic
     return result;
 }
 
+namespace
+{
+
+constexpr std::size_t longestValue = 80;    // of a message: what a forgotten ';' swallows may be the rest of the file
+
+std::string written(const Foam::ITstream& value)
+{
+    Foam::OStringStream found;
+    for (const Foam::token& t : value) found << (found.str().empty() ? "" : " ") << t;
+    const std::string all = found.str();
+    return all.size() > longestValue ? all.substr(0, longestValue) + " .." : all;
+}
+
+/// The beginning of an entry is what is wanted: what follows belongs to the next, or is a unit.
+bool hasTail(const Foam::ITstream& value)
+{
+    return value.size() > 1 && (value[0].isNumber() || value[0].isWord());
+}
+
+} // namespace
+
+void failValue(const Foam::dictionary& dict, const std::string& keyword, const std::string& what)
+{
+    if (dict.isDict(keyword)) failIn(dict, text("Entry '", keyword, "' is a group of entries in braces, but must be ", what, '.'));
+    const Foam::ITstream& value = dict.lookup(keyword);
+    failAt(value, text("Entry '", keyword, "' is '", written(value), "', but must be ", what, '.',
+        hasTail(value) ? "\n    Values have no unit behind them, and end with ';'." : ""));
+}
+
+Foam::ITstream& valueOf(const Foam::dictionary& dict, const std::string& keyword, const std::string& what)
+{
+    if (!dict.found(keyword)) failIn(dict, text("Entry '", keyword, "' is missing: it must be ", what, '.'));
+    if (dict.isDict(keyword)) failValue(dict, keyword, what);
+    return dict.lookup(keyword);
+}
+
 void checkRange(const Foam::dictionary& dict, const std::string& keyword, double value, const Range& range, const std::string& hint)
 {
     if (!range.contains(value))
@@ -156,7 +197,7 @@ void checkRange(const Foam::dictionary& dict, const std::string& keyword, double
 
 double readNumber(const Foam::dictionary& dict, const std::string& keyword, const Range& range, const std::string& hint)
 {
-    const double value = dict.get<Foam::scalar>(keyword);
+    const double value = readAs<Foam::scalar>(dict, keyword, text("a number ", toString(range)));
     checkRange(dict, keyword, value, range, hint);
     return value;
 }
@@ -166,12 +207,37 @@ double readNumberOr(const Foam::dictionary& dict, const std::string& keyword, do
     return dict.found(keyword, Foam::keyType::LITERAL) ? readNumber(dict, keyword, range, hint) : byDefault;
 }
 
-int readCountOr(const Foam::dictionary& dict, const std::string& keyword, int byDefault, const Range& range, const std::string& hint)
+int readCount(const Foam::dictionary& dict, const std::string& keyword, const Range& range, const std::string& hint)
 {
-    if (!dict.found(keyword, Foam::keyType::LITERAL)) return byDefault;
-    const int value = dict.get<Foam::label>(keyword);
+    const int value = readAs<Foam::label>(dict, keyword, text("a whole number ", toString(range)));
     checkRange(dict, keyword, value, range, hint);
     return value;
+}
+
+int readCountOr(const Foam::dictionary& dict, const std::string& keyword, int byDefault, const Range& range, const std::string& hint)
+{
+    return dict.found(keyword, Foam::keyType::LITERAL) ? readCount(dict, keyword, range, hint) : byDefault;
+}
+
+bool readFlagOr(const Foam::dictionary& dict, const std::string& keyword, bool byDefault)
+{
+    return dict.found(keyword) ? bool(readAs<Foam::Switch>(dict, keyword, "on or off (yes, no, true, false)")) : byDefault;
+}
+
+std::string readWord(const Foam::dictionary& dict, const std::string& keyword, const std::vector<std::string>& known)
+{
+    return readAs<Foam::word>(dict, keyword, known.empty() ? "a word" : text("one of: ", joined(known)));
+}
+
+std::string readWordOr(const Foam::dictionary& dict, const std::string& keyword, const std::string& byDefault)
+{
+    return dict.found(keyword) ? readWord(dict, keyword) : byDefault;
+}
+
+std::vector<std::string> readWords(const Foam::dictionary& dict, const std::string& keyword)
+{
+    const auto words = readAs<Foam::wordList>(dict, keyword, "a list of words in round brackets: (a b)");
+    return std::vector<std::string>(words.begin(), words.end());
 }
 
 } // namespace flotsam

@@ -56,6 +56,10 @@ refused overlap 'sed -i "s/    bar$/    copy { shape { type box; size (0.02 0.02
     bar copy into
 refused unknownShape 'sed -i "s/type box/type bocks/" constant/bodies' bodies bocks box
 refused unknownBodyKeyword 'sed -i "s/density/densty/" constant/bodies' densty density
+refused wordForNumber 'sed -i "s/590;/wood;/" constant/bodies' "'density' is 'wood', but must be a number larger than 0" 'constant/bodies.bodies.bar.density at line 16'
+refused posesWithoutGroups 'sed -i "s/position .*(0 0.001 0.025);/poses ( (0 0.001 0.025) );/" constant/bodies' "'poses' is" 'list of groups' constant/bodies.bodies.bar.poses
+refused acrossMotion 'echo "structures { gate { shape { type box; size (0.02 0.05 0.05); } position (0.05 -0.05 0.025); motion { type linear; velocity (0 0 1); } } }" >> constant/bodies' \
+    constant/bodies 'velocity of structure gate along z is 1; allowed: 0'
 refused sameName 'sed -i "s/^    bar$/    bar { shape { type box; size (0.02 0.02 0.05); } density 700; position (0.05 0 0.025); }\n    bar/" constant/bodies' \
     constant/bodies "'bar' stands twice in 'bodies'" 'lines 12 and 13'
 refused openStl 'mkdir -p constant/triSurface

@@ -62,6 +62,57 @@ TEST_CASE("one message for every mistake")
     CHECK(s.message(bodies(bar + "position (0.5 0.01 0.2);")).empty()); // lies on the floor
 }
 
+TEST_CASE("a value of the wrong kind: what it is and what it must be, not which token could not be read")
+{
+    BodiesScene s;
+    const std::string at = "position (0.5 0.5 0.2); ", box = "shape { type box; size (0.2 0.02 0.04); } ";
+    CHECK(has(s.message(bodies(box + "density wood; " + at)), "Entry 'density' is 'wood', but must be a number larger than 0."));
+    CHECK(has(s.message(bodies(box + "density 600 kg; " + at)), "Entry 'density' is '600 kg', but must be a number larger than 0.\n    Values have no unit behind them"));
+    CHECK(has(s.message(bodies(box + "density 600 " + at)), "Entry 'density' is '600 position ( 0.5 0.5 0.2 )'"));
+    CHECK(has(s.message(bodies(box + "density { wood 600; } " + at)), "Entry 'density' is a group of entries in braces, but must be a number"));
+    CHECK(has(s.message(bodies(bar + "position 0.5;")), "Entry 'position' is '0.5', but must be three numbers in round brackets: (x y z)."));
+    CHECK(has(s.message(bodies(bar + "position (0.5 0.5);")), "Entry 'position' is '( 0.5 0.5 )', but must be three numbers"));
+    CHECK(has(s.message(bodies("shape { size (1 1 1); } density 1;")), "Entry 'type' is missing: it must be one of: box, sphere"));
+    CHECK(has(s.message(bodies("shape { type (box); } density 1;")), "Entry 'type' is '( box )', but must be one of: box, sphere"));
+    CHECK(has(s.message("materials wood;" + bodies(bar + at)), "Entry 'materials' is 'wood', but must be a list of words"));
+    CHECK(has(s.message("materials (wood wood);" + bodies(bar + at)), "'materials' has 'wood' twice"));
+    CHECK(has(s.message("wallPatches floor;" + bodies(bar + at)), "Unknown wallPatches 'floor'"));
+    CHECK(has(s.message("wallPatches { floor; }" + bodies(bar + at)), "Entry 'wallPatches' is a group of entries in braces"));
+    CHECK(has(s.message("contact { default { perBody maybe; } }" + bodies(bar + at)), "Entry 'perBody' is 'maybe', but must be on or off"));
+    CHECK(has(s.message(bodies(bar + "random { count few; box ((0 0 0) (1 1 1)); }")), "Entry 'count' is 'few', but must be a whole number from 1 to"));
+    CHECK(has(s.message(bodies(bar + "random { count 2.5; box ((0 0 0) (1 1 1)); }")), "Entry 'count' is '2.5', but must be a whole number"));
+    CHECK(has(s.message(bodies(bar + "random { count 2; box (0 0 0 1 1 1); }")), "Entry 'box' is '( 0 0 0 1 1 1 )', but must be two corners"));
+}
+
+TEST_CASE("poses that are no list of groups are shown with how they are written")
+{
+    BodiesScene s;
+    const std::string wanted = "but must be a list of groups in round brackets, with ';' after every value: ( { position (x y z); } { .. } )";
+    for (const char* wrong : {"poses ( (0.5 0.5 0.2) (0.8 0.5 0.2) );", "poses ( { position (0.5 0.5 0.2) } );", "poses { a { position (0.5 0.5 0.2); } }", "poses (0.5 0.5 0.2);"})
+    {
+        const std::string message = s.message(bodies(bar + wrong));
+        CHECK(has(message, "Entry 'poses' is "));
+        CHECK(has(message, wanted));
+    }
+    CHECK(has(s.message(bodies(bar + "poses ( );")), "'poses' is empty: list at least one { position (..); }"));
+    CHECK(has(s.message(bodies(bar + "poses ( { position (0.5 0.5); } );")), "Entry 'position' is '( 0.5 0.5 )', but must be three numbers"));
+    CHECK(has(s.message(bodies(bar + "poses ( { positon (0.5 0.5 0.2); } );")), "Did you mean: position"));
+    CHECK(s.message(bodies(bar + "poses ( { position (0.5 0.5 0.2); } );")).empty());
+}
+
+TEST_CASE("2D: a structure moves in the plane of the mesh and turns across it")
+{
+    BodiesScene s(false);
+    const auto message = [&](const std::string& motion)
+    { return s.message("structures { gate { shape { type box; size (0.1 0.1 0.1); } position (1.5 0.5 0.05); motion { " + motion + " } } }"); };
+    CHECK(has(message("type linear; velocity (1 0 0.5);"), "velocity of structure gate along z is 0.5; allowed: 0"));
+    CHECK(has(message("type oscillating; direction (0 0 1); amplitude 0.1; period 1; phaseDeg 90;"), "velocity of structure gate along z"));
+    CHECK(has(message("type rotating; axis (1 0 0); omega 2;"), "angularVelocity of structure gate along x is 2; allowed: 0"));
+    CHECK(message("type linear; velocity (1 -2 0);").empty());
+    CHECK(message("type oscillating; direction (1 1 0); amplitude 0.1; period 1;").empty());
+    CHECK(message("type rotating; axis (0 0 -3); rpm 20; origin (1.4 0.5 0);").empty());
+}
+
 TEST_CASE("a group that stands twice in its file is found, and nothing else")
 {
     const auto found = [](const std::string& contents)

@@ -74,6 +74,8 @@ TEST_CASE("misspelt and out of range")
     CHECK(has(range, "from 1 to 2"));
     CHECK(has(range, "BDF2"));
     CHECK(has(numericsMessage("tolerance 0;"), "larger than 0"));
+    CHECK(has(numericsMessage("restart many;"), "Entry 'restart' is 'many', but must be a whole number from 2 to 1000"));
+    CHECK(has(numericsMessage("nitsche maybe;"), "Entry 'nitsche' is 'maybe', but must be on or off"));
 }
 
 TEST_CASE("nearest words")
@@ -131,6 +133,9 @@ TEST_CASE("transport: what is not modelled or contradictory is said")
     CHECK(has(transportMessage("phases (water air oil); " + water + air), "give two"));
     CHECK(has(transportMessage("phases (liquid air); " + water + air), "names liquid, of which there is no dictionary"));
     CHECK(has(transportMessage("phases (water air); " + water + "air { nu 1e-5; rho -1; }"), "rho"));
+    CHECK(has(transportMessage("phases (water air); water { nu 1e-6; } " + air), "Entry 'rho' is missing: it must be a number larger than 0"));
+    CHECK(has(transportMessage("phases (water air); water { nu 1e-6; rho heavy; } " + air), "Entry 'rho' is 'heavy', but must be a number"));
+    CHECK(has(transportMessage("phases water; " + water + air), "Entry 'phases' is 'water', but must be a list of words"));
     CHECK(has(transportMessage("sigma 0;"), "Neither 'phases' nor 'nu'"));
     CHECK(has(messageOf([] { checkLaminar(parse("simulationType RAS;")); }), "allowed: laminar"));
     CHECK(has(messageOf([] { checkLaminar(parse("simulationType laminar; laminar { laminarModel Maxwell; }")); }), "allowed: Stokes"));
@@ -145,6 +150,9 @@ TEST_CASE("time controls: the smaller of maxCo and maxAlphaCo counts; a fixed st
     CHECK(t.maxDeltaT == 0.05);
     CHECK_FALSE(readTimeControls(parse("deltaT 0.01;")).adjustTimeStep);
     CHECK(has(messageOf([] { readTimeControls(parse("deltaT 0.01; maxCo -1;")); }), "larger than 0"));
+    CHECK(has(messageOf([] { readTimeControls(parse("deltaT 0.01; maxCo half;")); }), "Entry 'maxCo' is 'half', but must be a number larger than 0"));
+    CHECK(has(messageOf([] { readTimeControls(parse("deltaT 0.01; adjustTimeStep maybe;")); }), "Entry 'adjustTimeStep' is 'maybe', but must be on or off"));
+    CHECK(has(messageOf([] { readTimeControls(parse("maxCo 0.5;")); }), "Entry 'deltaT' is missing: it must be a number larger than 0"));
     CHECK(has(messageOf([] { readTimeControls(parse("deltaT 0.01; minDeltaT 1; maxDeltaT 0.1;")); }), "larger than maxDeltaT"));
 }
 
