@@ -275,7 +275,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     PhaseTimers timers;
     if (task == Task::Check)
     {
-        RunOutput(runTime, adapter.mesh, halo, bodies, timers).checkStart();
+        RunOutput(runTime, adapter.mesh, halo, controls.fluid, bodies, timers).checkStart();
         checkThinStructures(adapter, halo, bodies);
         FlowState state;
         fields.readStart(state);
@@ -289,7 +289,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     const DemSetup dem = makeDemSetup(bodies, controls.numerics.demTimeStep, runTime.value());
     CoupledStep step(adapter.mesh, halo, controls.fluid, controls.numerics, boundary, makeScene(bodies, gravity),
         bodies.bodies.empty() ? nullptr : &dem, timers);
-    RunOutput output(runTime, adapter.mesh, halo, bodies, timers);
+    RunOutput output(runTime, adapter.mesh, halo, controls.fluid, bodies, timers);
     start(step, output, fields, runTime);
     if (!bodies.structures.empty())
         reportThinStructures(adapter.mesh, step.fluid().graph(), halo, *step.cover(), bodies, step.scene().solids().size());

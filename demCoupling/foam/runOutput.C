@@ -2,6 +2,7 @@
 #include "demCoupling/foam/runOutput.H"
 
 #include "foam/dictionaryChecks.H"
+#include "io/fluidRecord.hpp"
 
 #include "OSspecific.H"
 
@@ -89,9 +90,9 @@ int differingRow(const std::vector<double>& a, const std::vector<double>& b)
 
 } // namespace
 
-RunOutput::RunOutput(const Foam::Time& runTime, const SimplexMesh& mesh, const Halo& halo, const BodiesInput& bodies,
+RunOutput::RunOutput(const Foam::Time& runTime, const SimplexMesh& mesh, const Halo& halo, const FluidProperties& fluid, const BodiesInput& bodies,
     const PhaseTimers& timers)
-:   runTime_(runTime), mesh_(mesh), halo_(halo), timers_(timers), members_(makeMembers(bodies)),
+:   runTime_(runTime), mesh_(mesh), halo_(halo), fluid_(fluid), timers_(timers), members_(makeMembers(bodies)),
     descriptions_(describe(bodies)),
     files_(runTime, mesh, halo), log_(timers, runTime.value(), runTime.endTime().value()), forces_(structureNames(bodies)),
     nStructures_(int(bodies.structures.size())), firstStart_(runTime.value()), thinnestBody_(thinnestBody(bodies))
@@ -125,8 +126,8 @@ void RunOutput::checkStart() const
     const StateFiles::Found found = files_.find();
     if (found == StateFiles::Found::Nothing) checkUnfinished();
     if (found == StateFiles::Found::Foreign) failForeign();
-    if (found == StateFiles::Found::Own) checkMembers(files_.readOwn());
-    if (found == StateFiles::Found::Shared) checkMembers(files_.readShared());
+    if (found == StateFiles::Found::Own) checkContinued(files_.readOwn());
+    if (found == StateFiles::Found::Shared) checkContinued(files_.readShared());
     Foam::Info<< "Start at time " << runTime_.timeName() << ": " << (found == StateFiles::Found::Own ? "the stored state continues, exactly" : found == StateFiles::Found::Shared
         ? "bodies and sums of the stored state continue, the fluid from the written fields" : "anew from the volume fields") << Foam::nl << Foam::endl;
 }
@@ -199,9 +200,25 @@ void RunOutput::checkMembers(const RunState& state) const
         " flotsamState.h5 and uniform/flotsamState.h5");
 }
 
-void RunOutput::takeSums(RunState& state)
+/// The state's own properties are in its pressure, velocities and loads alone: it goes on with others, which may be meant.
+void RunOutput::warnOtherFluid(const RunState& state) const
+{
+    const auto stored = state.arrays.find("fluid");
+    const std::string changes = stored == state.arrays.end() ? "" : changedFluid(stored->second, fluid_);
+    if (changes.empty()) return;
+    Foam::Info<< "Warning: the stored state of time " << runTime_.timeName() << " was computed with other properties: " << changes.c_str()
+        << ".\n    The run goes on with those of constant/transportProperties and constant/g as they are now; pressure and loads change with the first step\n" << Foam::endl;
+}
+
+void RunOutput::checkContinued(const RunState& state) const
 {
     checkMembers(state);
+    warnOtherFluid(state);
+}
+
+void RunOutput::takeSums(RunState& state)
+{
+    checkContinued(state);
     // a folder that was given another name is of that time
     if (Foam::Time::timeName(state.flow.time) != runTime_.timeName()) state.flow.time = runTime_.value();
     mass_ = {state.scalars["initialLiquid"], state.scalars["inflow"], state.scalars["outflow"], state.scalars["liquid"]};
@@ -343,6 +360,7 @@ void RunOutput::writeState(const CoupledStep& step, double timeStep)
     for (const auto& array : ofProcess) names.push_back(array.first);
     state.arrays.insert(ofProcess.begin(), ofProcess.end());
     state.arrays["forces"] = forces_.values();
+    state.arrays["fluid"] = fluidRecord(fluid_);
     state.arrays["members"] = codesOf(members_);
     state.arrays["descriptions"] = descriptions_;
     state.scalars = {{"initialLiquid", mass_.initial}, {"inflow", mass_.inflow}, {"outflow", mass_.outflow}, {"liquid", mass_.final},

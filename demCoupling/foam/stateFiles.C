@@ -7,6 +7,7 @@
 
 #include <cstring>
 #include <sstream>
+#include <stdexcept>
 
 namespace flotsam
 {
@@ -71,6 +72,19 @@ void broadcast(RunState& state, MPI_Comm comm)
     }
 }
 
+/// What reads a file, with what to do without it where it is damaged.
+template<class Read>
+auto withAdvice(const char* advice, Read read)
+{
+    try { return read(); }
+    catch (const DamagedCheckpoint& damage) { throw std::runtime_error("restart: " + std::string(damage.what()) + ". " + advice); }
+}
+
+const char* const withoutOwn = "Remove the time's folder (in parallel of every processor*) to go on from the time before; or that file alone, and the run goes on"
+    " from what else is there: bodies and sums from uniform/flotsamState.h5, the fluid from the written fields";
+const char* const withoutShared = "Remove the time's folder (in parallel of every processor*) to go on from the time before; or that file alone, and the run starts"
+    " anew from the written fields, with the bodies at their places in constant/bodies";
+
 } // namespace
 
 StateFiles::StateFiles(const Foam::Time& runTime, const SimplexMesh& mesh, const Halo& halo)
@@ -101,19 +115,22 @@ std::vector<double> StateFiles::decomposition() const
 StateFiles::Found StateFiles::find() const
 {
     const bool isHere = Foam::isFile(ownFile());
-    const bool isMine = isHere && readCheckpointArray(ownFile(), decompositionName) == decomposition();
+    const bool isMine = isHere && withAdvice(withoutOwn, [&] { return readCheckpointArray(ownFile(), decompositionName); }) == decomposition();
     if (!halo_.any(!isMine)) return Found::Own;
     const bool isShared = halo_.rank() == 0 && !sharedFile().empty();
     if (halo_.any(isShared)) return Found::Shared;
     return halo_.any(isHere) ? Found::Foreign : Found::Nothing;
 }
 
-RunState StateFiles::readOwn() const { return readCheckpoint(ownFile(), std::size_t(mesh_.nNodes)); }
+RunState StateFiles::readOwn() const
+{
+    return withAdvice(withoutOwn, [&] { return readCheckpoint(ownFile(), std::size_t(mesh_.nNodes)); });
+}
 
 RunState StateFiles::readShared() const
 {
     RunState state;
-    if (halo_.rank() == 0) state = readCheckpoint(sharedFile(), 0);
+    if (halo_.rank() == 0) state = withAdvice(withoutShared, [&] { return readCheckpoint(sharedFile(), 0); });
     broadcast(state, halo_.comm());
     return state;
 }

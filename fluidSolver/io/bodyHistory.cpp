@@ -110,6 +110,7 @@ struct BodyHistory::Implementation
 
     Implementation(const std::string& file, const std::vector<HistoryMember>& members, double startTime);
     void create();
+    bool continueUndamaged(double startTime);
     bool continueFrom(double startTime);
     void checkMembers(const Hdf5File& out) const;
     void flushTo(Hdf5File& out);
@@ -121,7 +122,7 @@ BodyHistory::Implementation::Implementation(
     : file(fileName), members(memberList), surface(fileName, memberList), records(memberList.size())
 {
     checkNames(file, members);
-    if (::access(file.c_str(), F_OK) != 0 || !continueFrom(startTime)) create();
+    if (::access(file.c_str(), F_OK) != 0 || !continueUndamaged(startTime)) create();
     for (auto& member : members) member.surface = TriSurface(); // kept by `surface`
 }
 
@@ -171,6 +172,16 @@ void BodyHistory::Implementation::checkMembers(const Hdf5File& out) const
             throw std::runtime_error(file + ": holds " + group + ", which this case does not have; rename or remove the file "
                 "to start a new one");
         }
+    }
+}
+
+bool BodyHistory::Implementation::continueUndamaged(double startTime)
+{
+    try { return continueFrom(startTime); }
+    catch (const Hdf5Error& error)
+    {
+        throw std::runtime_error(std::string(error.what()) + ": cut off, damaged, or not a file of flotsamFoam. Rename or remove it: the run goes on with a new one,"
+            " without the records before its start");
     }
 }
 

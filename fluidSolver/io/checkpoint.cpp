@@ -96,7 +96,7 @@ void checkHeader(const Hdf5File& in, const std::string& file)
 {
     if (!in.hasAttribute("/", "kind") || in.stringAttribute("/", "kind") != magic)
     {
-        throw std::runtime_error(file + ": not a checkpoint of this program");
+        throw DamagedCheckpoint(file + ": not a checkpoint of this program");
     }
     const auto version = in.integerAttribute("/", "formatVersion");
     if (version != formatVersion)
@@ -106,7 +106,7 @@ void checkHeader(const Hdf5File& in, const std::string& file)
     }
     if (!in.hasAttribute("/", "complete") || in.integerAttribute("/", "complete") != 1)
     {
-        throw std::runtime_error(file + ": incomplete checkpoint (its writing was interrupted); restart from an earlier time");
+        throw DamagedCheckpoint(file + ": incomplete checkpoint (its writing was interrupted)");
     }
 }
 
@@ -124,9 +124,41 @@ void checkNodes(const Hdf5File& in, const FlowState& flow, std::size_t nNodes, c
         const bool isPerElement = f.field == &FlowState::fineScale || f.field == &FlowState::fineScaleOld;
         if (!isPerElement && nNodes > 0 && size % nNodes != 0)
         {
-            throw std::runtime_error(file + ": damaged, /flow/" + f.name + " holds " + std::to_string(size) + " values for "
+            throw DamagedCheckpoint(file + ": damaged, /flow/" + f.name + " holds " + std::to_string(size) + " values for "
                 + std::to_string(nNodes) + " nodes");
         }
+    }
+}
+
+RunState readContent(const std::string& file, std::size_t nNodes)
+{
+    Hdf5File in(file, Hdf5File::Mode::Read);
+    checkHeader(in, file);
+
+    RunState state;
+    FlowState& flow = state.flow;
+    flow.time = in.realAttribute("/flow", "time");
+    flow.dt = in.realAttribute("/flow", "dt");
+    for (const auto& f : flowFields) flow.*f.field = in.readArray(std::string("/flow/") + f.name);
+    checkNodes(in, flow, nNodes, file);
+    for (const auto& name : in.names("/arrays")) state.arrays[unescaped(name)] = in.readArray("/arrays/" + name);
+    for (const auto& name : in.names("/scalars")) state.scalars[unescaped(name)] = in.readArray("/scalars/" + name).at(0);
+    if (std::int64_t(state.arrays.size()) != in.integerAttribute("/", "nArrays")
+        || std::int64_t(state.scalars.size()) != in.integerAttribute("/", "nScalars"))
+    {
+        throw DamagedCheckpoint(file + ": damaged, arrays or scalars are missing");
+    }
+    return state;
+}
+
+/// HDF5 stumbles over whatever comes first in a file that is cut off or another's: what that means is said with it.
+template<class Read>
+auto readUndamaged(Read read)
+{
+    try { return read(); }
+    catch (const Hdf5Error& error)
+    {
+        throw DamagedCheckpoint(std::string(error.what()) + ": cut off, damaged, or not a file of flotsamFoam");
     }
 }
 
@@ -149,32 +181,19 @@ void writeCheckpoint(const std::string& file, const RunState& state)
 RunState readCheckpoint(const std::string& file, std::size_t nNodes)
 {
     checkReadable(file);
-    Hdf5File in(file, Hdf5File::Mode::Read);
-    checkHeader(in, file);
-
-    RunState state;
-    FlowState& flow = state.flow;
-    flow.time = in.realAttribute("/flow", "time");
-    flow.dt = in.realAttribute("/flow", "dt");
-    for (const auto& f : flowFields) flow.*f.field = in.readArray(std::string("/flow/") + f.name);
-    checkNodes(in, flow, nNodes, file);
-    for (const auto& name : in.names("/arrays")) state.arrays[unescaped(name)] = in.readArray("/arrays/" + name);
-    for (const auto& name : in.names("/scalars")) state.scalars[unescaped(name)] = in.readArray("/scalars/" + name).at(0);
-    if (std::int64_t(state.arrays.size()) != in.integerAttribute("/", "nArrays")
-        || std::int64_t(state.scalars.size()) != in.integerAttribute("/", "nScalars"))
-    {
-        throw std::runtime_error(file + ": damaged, arrays or scalars are missing");
-    }
-    return state;
+    return readUndamaged([&] { return readContent(file, nNodes); });
 }
 
 std::vector<double> readCheckpointArray(const std::string& file, const std::string& name)
 {
     checkReadable(file);
-    Hdf5File in(file, Hdf5File::Mode::Read);
-    checkHeader(in, file);
-    const std::string path = "/arrays/" + escaped(name);
-    return in.exists(path) ? in.readArray(path) : std::vector<double>();
+    return readUndamaged([&]
+    {
+        Hdf5File in(file, Hdf5File::Mode::Read);
+        checkHeader(in, file);
+        const std::string path = "/arrays/" + escaped(name);
+        return in.exists(path) ? in.readArray(path) : std::vector<double>();
+    });
 }
 
 } // namespace flotsam

@@ -97,14 +97,14 @@ void Hdf5File::close()
     const std::string reason = isFlushed ? "" : lastHdf5Error();
     const bool isClosed = H5Fclose(id_) >= 0;
     id_ = -1;
-    if (!isFlushed) throw std::runtime_error(file_ + ": cannot write the file to disk (" + reason + ")");
+    if (!isFlushed) throw Hdf5Error(file_ + ": cannot write the file to disk (" + reason + ")");
     if (!isClosed) fail("cannot close the file", "");
 }
 
 void Hdf5File::fail(const std::string& action, const std::string& path) const
 {
     const std::string where = path.empty() ? "" : ", dataset " + path;
-    throw std::runtime_error(file_ + where + ": " + action + " (" + lastHdf5Error() + ")");
+    throw Hdf5Error(file_ + where + ": " + action + " (" + lastHdf5Error() + ")");
 }
 
 bool Hdf5File::exists(const std::string& path) const

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// A thin HDF5 file: arrays, growing tables and attributes; every failure is a std::runtime_error with file and dataset.
+/// A thin HDF5 file: arrays, growing tables and attributes; every failure is an Hdf5Error with file and dataset.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace flotsam
 {
+
+struct Hdf5Error : std::runtime_error { using std::runtime_error::runtime_error; };
 
 /// Serial access by one process. Paths are absolute ("/run/time"); missing groups are made on the way.
 class Hdf5File

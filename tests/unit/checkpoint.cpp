@@ -41,12 +41,18 @@ RunState example()
     return state;
 }
 
-/// What readCheckpoint complains about; "" if it does not.
-std::string complaint(const std::string& file, std::size_t n = nNodes)
+/// What readCheckpoint complains about; "" if it does not. isDamaged: of what kind it is.
+std::string complaint(const std::string& file, std::size_t n = nNodes, bool* isDamaged = nullptr)
 {
     try
     {
         readCheckpoint(file, n);
+    }
+    catch (const DamagedCheckpoint& error)
+    {
+        if (isDamaged) *isDamaged = true;
+        CHECK(std::string(error.what()).find(file) == 0);
+        return error.what();
     }
     catch (const std::runtime_error& error)
     {
@@ -115,7 +121,8 @@ TEST_CASE("a checkpoint that does not fit is refused with its reason")
 
     CHECK(contains(complaint(file), "No such file"));
     std::ofstream(file) << "this is no HDF5 file";
-    CHECK(contains(complaint(file), "cannot open the file"));
+    CHECK(contains(complaint(file), "cannot open the file (file signature not found): cut off, damaged, or not a file of flotsamFoam"));
+    CHECK_THROWS_AS(readCheckpointArray(file, "x"), DamagedCheckpoint);
     Hdf5File(file, Hdf5File::Mode::Create).writeArray("/x", {1});
     CHECK(contains(complaint(file), "not a checkpoint"));
 
@@ -147,8 +154,14 @@ TEST_CASE("a damaged checkpoint is noticed wherever the damage is")
 
     const auto overwrite = std::filesystem::copy_options::overwrite_existing;
     std::filesystem::copy_file(whole, file, overwrite);
-    std::filesystem::resize_file(file, size / 2);
-    CHECK(complaint(file) != "");
+    for (const std::size_t kept : {size/2, std::size_t(100), std::size_t(0), size - 1})
+    {
+        bool isDamaged = false;
+        std::filesystem::copy_file(whole, file, overwrite);
+        std::filesystem::resize_file(file, kept);
+        CHECK(contains(complaint(file, nNodes, &isDamaged), "cut off, damaged, or not a file of flotsamFoam"));
+        CHECK(isDamaged);
+    }
 
     // a flipped bit is found, or was in unused space and the state is still exactly the written one
     int noticed = 0, harmless = 0;

@@ -1,0 +1,57 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Stored states that do not fit: computed with other fluids (goes on, with a warning that names both values), cut off (refused with what can be done
+# without it, which then works; nothing is changed before).
+. "$(dirname "$0")/support.sh"
+mkdir -p "$work" && cd "$work" || exit
+rm -rf ./*
+
+makeFloatingBar bar
+fixedSteps bar 0.001 0.002 2
+(cd bar && quietly flotsamFoam) || exit
+setEntry bar/system/controlDict endTime 0.004
+
+cp -r bar denser
+sed -i 's/ 1000;/ 1200;/' denser/constant/transportProperties
+sed -i 's/-9.81/-9.7/' denser/constant/g
+words='state of time 0.002 was computed with other properties: density of the liquid 1000, now 1200 kg/m^3; gravity (0 -9.81 0), now (0 -9.7 0) m/s^2\.'
+for option in -dry-run -noFunctionObjects; do
+    (cd denser && quietly flotsamFoam $option)
+    grep -q "$words" denser/log.flotsamFoam || fail "a state computed with other fluids ($option): no word"
+done
+setEntry denser/system/controlDict endTime 0.006
+(cd denser && quietly flotsamFoam) || exit
+grep -q 'other properties' denser/log.flotsamFoam && fail "a state computed with the same fluids: a warning"
+
+# refused CASE FILE ADVICE COMMAND...: the state is named with what to do, on every process that has it or on one; the histories stay as they are
+refused() {
+    local case=$1 file=$2 advice=$3
+    shift 3
+    cksum "$case"/postProcessing/flotsam/* > before
+    (cd "$case" && "$@") > log 2>&1 && fail "$case: $file is accepted by $*"
+    grep -q "$case/$file: cannot open the file .*: cut off, damaged, or not a file of flotsamFoam. Remove the time's folder .* $advice" log || fail "$case: $file: $(tail -n 15 log)"
+    cksum "$case"/postProcessing/flotsam/* | diff before - || fail "$case: the histories are changed"
+}
+
+cp -r bar cut
+truncate -s 3000 cut/0.002/flotsamState.h5
+refused cut 0.002/flotsamState.h5 'from the written fields' flotsamFoam -dry-run
+refused cut 0.002/flotsamState.h5 'from the written fields' flotsamFoam
+rm cut/0.002/flotsamState.h5
+(cd cut && quietly flotsamFoam && grep -q 'bodies, contact and sums exactly' log.flotsamFoam) || fail "without the state that was cut off: the run does not go on"
+rm cut/0.004/flotsamState.h5
+echo 'no HDF5' > cut/0.004/uniform/flotsamState.h5
+setEntry cut/system/controlDict endTime 0.006
+refused cut 0.004/uniform/flotsamState.h5 'anew from the written fields' flotsamFoam
+rm -r cut/0.004
+(cd cut && cp ../bar/0.002/flotsamState.h5 0.002 && quietly flotsamFoam && grep -q 'continuing the stored state of time 0.002' log.flotsamFoam) || fail "from the time before: the run does not go on"
+
+cp -r bar two
+rm -r two/0.002 two/postProcessing
+setEntry two/system/controlDict endTime 0.002
+(cd two && quietly decomposePar && solve 2) || exit
+setEntry two/system/controlDict endTime 0.004
+truncate -s 3000 two/processor1/0.002/flotsamState.h5
+refused two processor1/0.002/flotsamState.h5 'from the written fields' mpirun -np 2 flotsamFoam -parallel
+rm two/processor1/0.002/flotsamState.h5
+(cd two && solve 2 && grep -q 'bodies, contact and sums exactly' log.mpirun) || fail "without one process's state: the run does not go on"
