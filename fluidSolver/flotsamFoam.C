@@ -14,6 +14,7 @@
 #include "foam/dictionaryChecks.H"
 #include "foam/fieldIO.H"
 #include "foam/patchReport.H"
+#include "foam/startReport.H"
 #include "foam/writeTimes.H"
 
 #include "algebra/needlessWork.hpp"
@@ -180,14 +181,24 @@ void updateTimeControls(const Foam::Time& runTime, TimeControls& time)
     Foam::Info<< "system/controlDict was changed: time step " << describe(time).c_str() << Foam::endl;
 }
 
-/// Start of the run, which takes the clock along: the state stored at the start time, or its fields where there is none.
-void start(CoupledStep& step, RunOutput& output, const FoamFields& fields, Foam::Time& runTime)
+/// What a run that begins anew begins with.
+void reportAnew(const CaseControls& controls, const SimplexMesh& mesh, const Halo& halo, const BodiesInput& bodies, const FlowState& state)
+{
+    reportStart(controls, mesh, halo, state);
+    const std::string doubt = bodyInStream(bodies, mesh, halo, controls.fluid, state, state.time);
+    if (!doubt.empty()) Foam::Info<< "Warning: " << doubt.c_str() << Foam::nl;
+}
+
+/// Start of the run, which takes the clock along: the state stored at the start time, or its fields where there is none; report: of these.
+template<class Report>
+void start(CoupledStep& step, RunOutput& output, const FoamFields& fields, Foam::Time& runTime, Report report)
 {
     if (!output.readState(step, fields))
     {
         FlowState state;
         state.time = runTime.value();
         fields.readStart(state);
+        report(state);
         step.start(std::move(state), true);
     }
     runTime.setTime(step.fluid().state().time, runTime.timeIndex()); // OpenFOAM has it from the folder's name
@@ -260,6 +271,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     checkProcesses();
     const CaseControls controls = readCaseControls(runTime);
     MeshAdapter adapter = makeSimplexMesh(mesh, MPI_COMM_WORLD, verticalAxis(controls.fluid.gravity));
+    checkGravity(controls.fluid, adapter.mesh);
     const Halo halo(adapter.mesh, MPI_COMM_WORLD);
     std::vector<BoundaryPatch> boundary = readBoundary(mesh, adapter, halo, controls);
     FoamFields fields(mesh, adapter, halo, controls);
@@ -272,13 +284,15 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         patch.stopsBodies = std::find(bodies.wallPatches.begin(), bodies.wallPatches.end(), patch.name) != bodies.wallPatches.end();
     takeBodyWalls(adapter.mesh, boundary);
     printCaseCheck(controls, adapter, halo, boundary, countScene(bodies));
+    const auto report = [&](const FlowState& state) { reportAnew(controls, adapter.mesh, halo, bodies, state); };
     PhaseTimers timers;
     if (task == Task::Check)
     {
-        RunOutput(runTime, adapter.mesh, halo, controls.fluid, bodies, timers).checkStart();
+        const bool isContinued = RunOutput(runTime, adapter.mesh, halo, controls.fluid, bodies, timers).checkStart();
         checkThinStructures(adapter, halo, bodies);
         FlowState state;
         fields.readStart(state);
+        if (!isContinued) report(state);
         checkInflow(adapter, halo, boundary, state, nullptr, runTime.value());
         reportPatches(controls, adapter, halo, boundary, state, nullptr, runTime.value());
         writeNumerics(Foam::Info, controls.numerics);
@@ -290,7 +304,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     CoupledStep step(adapter.mesh, halo, controls.fluid, controls.numerics, boundary, makeScene(bodies, gravity),
         bodies.bodies.empty() ? nullptr : &dem, timers);
     RunOutput output(runTime, adapter.mesh, halo, controls.fluid, bodies, timers);
-    start(step, output, fields, runTime);
+    start(step, output, fields, runTime, report);
     if (!bodies.structures.empty())
         reportThinStructures(adapter.mesh, step.fluid().graph(), halo, *step.cover(), bodies, step.scene().solids().size());
     reportPatches(controls, adapter, halo, boundary, step.fluid().state(), step.cover(), runTime.value());

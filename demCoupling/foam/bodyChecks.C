@@ -37,7 +37,56 @@ double largestStiffness(const BodiesInput& input, int material)
     return largest;
 }
 
+struct Stream { Vec3 velocity = Vec3::Zero(); bool isThere = false; };
+
+/// Mean of the liquid at the nodes in the box around a body; where there are none, within `around` of it.
+Stream streamAt(const BodyDefinition& body, const SimplexMesh& mesh, const Halo& halo, const FlowState& state, double around)
+{
+    const std::array<Vec3, 2> own = body.shape->bounds();
+    const Vec3 centre = body.pose.position + body.pose.orientation*(0.5*(own[0] + own[1])),
+        half = body.pose.orientation.toRotationMatrix().cwiseAbs()*(0.5*(own[1] - own[0]));
+    for (const double margin : {0.0, around})
+    {
+        double sums[4] = {};    // of alpha u, and of alpha
+        for (int i = 0; i < mesh.nOwned; ++i)
+        {
+            const auto x = mesh.spacePoint(i);
+            if (((Vec3(x[0], x[1], x[2]) - centre).cwiseAbs() - half).maxCoeff() > margin) continue;
+            for (int d = 0; d < mesh.dim; ++d) sums[mesh.axes[d]] += state.alpha[i]*state.u[std::size_t(i)*mesh.dim + d];
+            sums[3] += state.alpha[i];
+        }
+        halo.sum(sums, 4);
+        if (sums[3] > 0) return {Vec3(sums[0], sums[1], sums[2])/sums[3], true};
+    }
+    return {};
+}
+
 } // namespace
+
+std::string bodyInStream(const BodiesInput& input, const SimplexMesh& mesh, const Halo& halo, const FluidProperties& fluid, const FlowState& state, double time)
+{
+    constexpr double slow = 0.1;        // speed over sqrt(g times a body's thickness)
+    constexpr int mostBodies = 50;      // that are looked at: those of a group are in the same stream
+    const double gravity = std::hypot(fluid.gravity[0], fluid.gravity[1], fluid.gravity[2]);
+    if (gravity == 0) return "";        // nothing to compare a speed with
+    double fastest = 0;
+    for (const double u : state.u) fastest = std::max(fastest, std::abs(u));
+    if (halo.max(fastest) == 0) return "";
+    const double shortest = halo.min(mesh.h.empty() ? 1e300 : *std::min_element(mesh.h.begin(), mesh.h.end()));
+    int looked = 0;
+    for (const BodyDefinition& body : input.bodies)
+    {
+        const bool isAtRest = body.motion.velocity.isZero(0) && body.motion.angularVelocity.isZero(0);
+        if (body.entersAtRelease || body.releaseTime > time || !isAtRest) continue;
+        if (++looked > mostBodies) break;
+        const Stream stream = streamAt(body, mesh, halo, state, shortest);
+        const Vec3& u = stream.velocity;
+        if (!stream.isThere || u.norm() <= slow*std::sqrt(gravity*body.thinnest)) continue;
+        return text("body ", body.name, " is let go at rest in a stream of ", u.norm(), " m/s that is there from the start: the first step throws it along with a good part of that speed."
+            " Let it move with the stream, `velocity (", u[0], ' ', u[1], ' ', u[2], ");`, or hold it until the stream has found its way around it, `releaseTime`");
+    }
+    return "";
+}
 
 std::vector<std::string> doubtfulBodies(const BodiesInput& input, const FluidProperties& fluid, double endTime)
 {

@@ -121,7 +121,7 @@ void RunOutput::checkUnfinished() const
         + runTime_.timeName() + " to continue from the time before, or that file to start anew from the fields");
 }
 
-void RunOutput::checkStart() const
+bool RunOutput::checkStart() const
 {
     const StateFiles::Found found = files_.find();
     if (found == StateFiles::Found::Nothing) checkUnfinished();
@@ -130,6 +130,7 @@ void RunOutput::checkStart() const
     if (found == StateFiles::Found::Shared) checkContinued(files_.readShared());
     Foam::Info<< "Start at time " << runTime_.timeName() << ": " << (found == StateFiles::Found::Own ? "the stored state continues, exactly" : found == StateFiles::Found::Shared
         ? "bodies and sums of the stored state continue, the fluid from the written fields" : "anew from the volume fields") << Foam::nl << Foam::endl;
+    return found != StateFiles::Found::Nothing;
 }
 
 bool RunOutput::readState(CoupledStep& step, const FoamFields& fields)

@@ -4,6 +4,7 @@
 #include "equations/inflowBalance.hpp"
 #include "foam/boundaryReader.H"
 #include "foam/dictionaryChecks.H"
+#include "foam/startReport.H"
 
 #include <algorithm>
 #include <cmath>
@@ -72,18 +73,35 @@ void printCost(const MeshCounts& counts, const SimplexMesh& mesh, const SceneCou
     line("time per step", text("about ", std::round(seconds*1000)/1000, " s (estimate for one core per rank)"));
 }
 
+constexpr double roundOff = 1e-6;   // of gravity's direction
+
+double strength(const std::array<double, 3>& g) { return std::hypot(g[0], g[1], g[2]); }
+
+/// Part of gravity that acts along the empty direction of a 2D mesh.
+double across(const std::array<double, 3>& g, const SimplexMesh& mesh) { return mesh.dim == 2 ? std::abs(g[mesh.axes[2]]) : 0; }
+
 /// What is no error, but seldom meant; empty: nothing.
 std::string gravityWarning(const FluidProperties& fluid, const SimplexMesh& mesh)
 {
     const auto& g = fluid.gravity;
-    const double all = std::hypot(g[0], g[1], g[2]), across = mesh.dim == 2 ? std::abs(g[mesh.axes[2]]) : 0;
-    if (all == 0) return fluid.isTwoPhase ? "constant/g is (0 0 0): nothing keeps the lighter fluid above" : "";
-    if (across > 1e-6*all)
+    if (strength(g) == 0) return fluid.isTwoPhase ? "constant/g is (0 0 0): nothing keeps the lighter fluid above" : "";
+    if (across(g, mesh) > roundOff*strength(g))
         return text("gravity acts along ", "xyz"[mesh.axes[2]], ", across this 2D mesh: that part does nothing. Give constant/g in the plane of the mesh");
     return "";
 }
 
 } // namespace
+
+void checkGravity(const FluidProperties& fluid, const SimplexMesh& mesh)
+{
+    const auto& g = fluid.gravity;
+    const double inPlane = mesh.dim == 2 ? std::hypot(g[mesh.axes[0]], g[mesh.axes[1]]) : strength(g);
+    if (!fluid.isTwoPhase || across(g, mesh) == 0 || inPlane > roundOff*strength(g)) return;
+    std::array<double, 3> meant{};
+    meant[mesh.axes[2] == 1 ? 2 : 1] = -strength(g);
+    failOnAll(text("constant/g is (", g[0], ' ', g[1], ' ', g[2], "), along ", "xyz"[mesh.axes[2]], ", the empty direction of this 2D mesh: there would be no gravity, and nothing to keep the lighter"
+        " fluid above.\n    Give it in the plane of the mesh, for instance (", meant[0], ' ', meant[1], ' ', meant[2], "); where none is meant (0 0 0)."));
+}
 
 std::string describe(const TimeControls& time)
 {
@@ -105,6 +123,7 @@ void printCaseCheck(const CaseControls& controls, const MeshAdapter& adapter, co
     line("gravity", text("(", g[0], " ", g[1], " ", g[2], ") m/s^2"));
     const std::string gravity = gravityWarning(controls.fluid, mesh);
     if (!gravity.empty()) line("warning", gravity);
+    for (const std::string& doubt : doubtfulFluids(controls)) line("warning", doubt);
     line("structures", structuresLine(scene));
     line("bodies", bodiesLine(scene));
     line("time step", describe(controls.time));

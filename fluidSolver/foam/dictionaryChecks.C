@@ -40,6 +40,13 @@ template<class Place>
 
 void failIn(const Foam::dictionary& dict, const std::string& message) { failAt(dict, message); }
 
+void failOnAll(const std::string& message)
+{
+    letMasterSpeak();
+    FatalErrorInFunction << message.c_str() << Foam::nl << Foam::exit(Foam::FatalError);
+    throw std::logic_error(message); // never reached
+}
+
 const Foam::dictionary& subGroup(const Foam::dictionary& dict, const std::string& keyword)
 {
     if (!dict.found(keyword)) failIn(dict, text("Entry '", keyword, " { .. }' is missing."));

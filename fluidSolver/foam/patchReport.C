@@ -48,7 +48,7 @@ void reportPatches(const CaseControls& controls, const MeshAdapter& adapter, con
         reportInflow(controls, patch, prescribedInflow(mesh, halo, patch, values, state, cover));
     }
     const auto& g = controls.fluid.gravity;
-    if (controls.fluid.isTwoPhase && std::hypot(g[0], g[1], g[2]) > 0)
+    if (controls.fluid.rhoLiquid > controls.fluid.rhoGas && std::hypot(g[0], g[1], g[2]) > 0) // else there is no level
     {
         const std::vector<double> levels = outsideLevels(mesh, halo, patches, controls.fluid, time);
         for (std::size_t p = 0; p < patches.size(); ++p)

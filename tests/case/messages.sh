@@ -34,6 +34,7 @@ refused keyword 'setNumerics . "nitscheGama 10;"' \
     fvSolution nitscheGama nitscheGamma
 refused range 'setNumerics . "tolerance -1;"' \
     fvSolution tolerance -1
+refused gravityAcross 'sed -i "s/(0 -9.81 0)/(0 0 -9.81)/" constant/g' 'constant/g is (0 0 -9.81), along z' 'for instance (0 -9.81 0)'
 refused wallLaw 'setNumerics . "wallLaw on; wallGamma 0;"' \
     fvSolution wallLaw 'wallGamma is 0'
 refused missingField 'rm 0/p_rgh' p_rgh
@@ -75,7 +76,7 @@ refused twoShort 'sed -i "s/size (0.02 0.02 0.05)/size (0.02 0.02 0.03)/" consta
 rm -rf pen && cp -r good pen
 (cd pen && sed -i "s/^maxBodyCo/maxBodyCO/" system/controlDict && sed -i 's/^flotsam/flotsm/' system/fvSolution && quietly flotsamFoam -dry-run \
     && grep -q "entry 'maxBodyCO'. Did you mean: maxBodyCo" log.flotsamFoam && grep -q "entry 'flotsm'. Did you mean: flotsam" log.flotsamFoam) || fail "slips of the pen are not mentioned"
-grep -q 'Did you mean' good/log.flotsamFoam && fail "a warning in a good case"
+grep -q 'Did you mean\|arning: \|^  warning' good/log.flotsamFoam && fail "a warning in a good case"
 
 # not of a dictionary: processes without -parallel, and a state of other bodies
 (cd good && mpirun -np 2 flotsamFoam -dry-run) > alone.log 2>&1 && fail "processes without -parallel are accepted"
@@ -110,6 +111,18 @@ rm -rf misnamed && cp -r good misnamed && mv misnamed/constant/bodies misnamed/c
 rm -rf beside && cp -r good beside
 echo 'structures { pier { shape { type cylinder; end1 (5 0 0); end2 (5 0 0.05); radius 0.01; } } }' >> beside/constant/bodies
 (cd beside && quietly flotsamFoam -dry-run && grep -q 'structure pier lies outside of the mesh' log.flotsamFoam) || fail "a structure beside the mesh is not mentioned"
+rm -rf upwards && cp -r good upwards
+sed -i 's/(0 -9.81 0)/(0 9.81 0)/' upwards/constant/g
+(cd upwards && quietly flotsamFoam -dry-run && grep -q 'Warning: water hangs at rest from the top of the mesh.*constant/g, (0 9.81 0), point downwards' log.flotsamFoam) || fail "a gravity that points upwards is not mentioned"
+rm -rf relative && cp -r good relative
+sed -i -e 's/ 1;/ 0.001;/' -e 's/ 1000;/ 1;/' relative/constant/transportProperties
+(cd relative && quietly flotsamFoam -dry-run && grep -q 'rho of water is 1 kg/m^3, less than that of any liquid' log.flotsamFoam) || fail "densities over water's are not mentioned"
+rm -rf equal && cp -r good equal
+sed -i 's/ 1000;/ 1;/' equal/constant/transportProperties
+(cd equal && quietly flotsamFoam -dry-run && grep -q 'both fluids have the density 1 kg/m^3' log.flotsamFoam) || fail "fluids of one density are not mentioned"
+rm -rf kicked && cp -r good kicked
+sed -i 's/uniform (0 0 0)/uniform (1 0 0)/' kicked/0/U
+(cd kicked && quietly flotsamFoam -dry-run && grep -q 'Warning: body bar is let go at rest in a stream of 1 m/s' log.flotsamFoam) || fail "a body at rest in a stream is not mentioned"
 rm -rf dry && cp -r good dry
 (cd dry && cp 0.orig/alpha.water 0/alpha.water && quietly flotsamFoam -dry-run && grep -q 'alpha.water of time 0 has no liquid' log.flotsamFoam) || fail "a tank without liquid is not mentioned"
 rm -rf thin && cp -r good thin

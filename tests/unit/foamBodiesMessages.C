@@ -10,6 +10,7 @@
 #include <mpi.h>
 
 #include <fstream>
+#include <functional>
 
 using namespace flotsam;
 
@@ -173,6 +174,40 @@ TEST_CASE("an open STL is refused with its file")
     CHECK(has(message, "open.stl"));
     CHECK(has(message, "the surface is open")); // so it was found and read, on every rank
     CHECK(has(s.message(bodies("shape { type stl; file \"absent.stl\"; } density 500;")), "absent.stl"));
+}
+
+TEST_CASE("a body that is let go at rest in a stream that is there from the start is told")
+{
+    BodiesScene s;
+    const SimplexMesh& mesh = s.adapter.mesh;
+    FlowState state;
+    FluidProperties fluid;
+    fluid.gravity = {0, -9.81, 0};
+    const auto doubt = [&](const std::string& rest, double speed, const std::function<double(double y)>& alpha = [](double) { return 1.0; }, double time = 0)
+    {
+        state.u.assign(3*std::size_t(mesh.nNodes), 0.0);
+        state.alpha.resize(mesh.nNodes);
+        for (int i = 0; i < mesh.nNodes; ++i)
+        {
+            state.alpha[i] = alpha(mesh.spacePoint(i)[1]);
+            state.u[3*std::size_t(i)] = speed;
+        }
+        const BodiesInput input = s.read("bodies { crate { shape { type box; size (0.3 0.3 0.3); } density 600; position (0.5 0.5 0.2); " + rest + " } }");
+        return bodyInStream(input, mesh, s.halo, fluid, state, time);
+    };
+    CHECK(has(doubt("", 1), "body crate is let go at rest in a stream of 1 m/s"));
+    CHECK(has(doubt("", 1), "`velocity (1 0 0);`"));
+    CHECK(doubt("", 0).empty());
+    CHECK(doubt("", 0.1).empty());                      // slow: 0.06 of sqrt(g 0.3 m)
+    CHECK(doubt("velocity (0.8 0 0);", 1).empty());
+    CHECK(doubt("releaseTime 0.1;", 1).empty());
+    CHECK(has(doubt("releaseTime 0.1;", 1, [](double) { return 1.0; }, 0.1), "body crate"));
+    CHECK(doubt("beforeRelease absent;", 1).empty());
+    const auto pool = [](double y) { return y < 0.2 ? 1.0 : 0.0; };
+    CHECK(doubt("", 1, pool).empty());                  // wind
+    CHECK(has(doubt("", 1, [](double y) { return y < 0.5 ? 1.0 : 0.0; }), "stream of 1 m/s"));
+    fluid.gravity = {0, 0, 0};
+    CHECK(doubt("", 1).empty());
 }
 
 TEST_CASE("bodies lighter than the gas, those that their weight presses deep into what they lie on, and those never released, are told")

@@ -2,6 +2,7 @@
 /// The report of a dry run: counts, what is skipped, an estimate.
 #include "foam/boundaryReader.H"
 #include "foam/caseCheck.H"
+#include "foam/startReport.H"
 #include "support/foamCase.H"
 
 #include <doctest/doctest.h>
@@ -39,6 +40,51 @@ TEST_CASE("prescribed velocities must let out what they let in, unless a patch i
     CHECK(!message("0", shut).empty());
 }
 
+TEST_CASE("gravity along the empty direction of a 2D mesh is refused for two fluids")
+{
+    SimplexMesh mesh;
+    mesh.dim = 2;
+    const auto message = [&](const std::array<double, 3>& g, bool isTwoPhase)
+    {
+        FluidProperties fluid;
+        fluid.gravity = g;
+        fluid.isTwoPhase = isTwoPhase;
+        return messageOf([&] { checkGravity(fluid, mesh); });
+    };
+    CHECK(message({0, 0, -9.81}, true).find("constant/g is (0 0 -9.81), along z, the empty direction of this 2D mesh") != std::string::npos);
+    CHECK(message({0, 0, -9.81}, true).find("for instance (0 -9.81 0)") != std::string::npos);
+    CHECK(message({0, 0, -9.81}, false).empty());   // does nothing
+    CHECK(message({0, -9.81, 0}, true).empty());
+    CHECK(message({0, -9.7, -1}, true).empty());
+    CHECK(message({0, 0, 0}, true).empty());
+    mesh.axes = {2, 0, 1};
+    CHECK(message({0, -9.81, 0}, true).find("along y") != std::string::npos);
+    CHECK(message({0, -9.81, 0}, true).find("for instance (0 0 -9.81)") != std::string::npos);
+    CHECK(message({0, 0, -9.81}, true).empty());
+    mesh.dim = 3;
+    CHECK(message({0, -9.81, 0}, true).empty());
+}
+
+TEST_CASE("densities in other units, and fluids of one density")
+{
+    const auto doubts = [](double liquid, double gas, bool isTwoPhase)
+    {
+        CaseControls controls;
+        controls.liquidName = "water";
+        controls.fluid.rhoLiquid = liquid;
+        controls.fluid.rhoGas = gas;
+        controls.fluid.isTwoPhase = isTwoPhase;
+        std::string all;
+        for (const std::string& doubt : doubtfulFluids(controls)) all += doubt + "|";
+        return all;
+    };
+    CHECK(doubts(1000, 1.2, true).empty());
+    CHECK(doubts(500, 100, true).empty());
+    CHECK(doubts(1, 0.0012, true).find("rho of water is 1 kg/m^3, less than that of any liquid") == 0);
+    CHECK(doubts(1, 1, true).find("both fluids have the density 1 kg/m^3") == 0);
+    CHECK(doubts(1.2, 1.2, false).empty());         // air
+}
+
 TEST_CASE("report of a channel with and without bodies")
 {
     FoamCase foam("foamChannel");
@@ -64,7 +110,7 @@ TEST_CASE("report of a channel with and without bodies")
     CHECK(empty.find("memory") != std::string::npos);
     CHECK(empty.find("warning") == std::string::npos);
     const auto g = controls.fluid.gravity;
-    controls.fluid.gravity = {0, 0, -9.81};
+    controls.fluid.gravity = {0, -9.81, -1};
     CHECK(capture(scene).find("gravity acts along z, across this 2D mesh") != std::string::npos);
     controls.fluid.gravity = {0, 0, 0};
     CHECK(capture(scene).find("constant/g is (0 0 0)") != std::string::npos);
