@@ -13,6 +13,7 @@
 #include "foam/cellCost.H"
 #include "foam/dictionaryChecks.H"
 #include "foam/fieldIO.H"
+#include "foam/otherInput.H"
 #include "foam/patchReport.H"
 #include "foam/startReport.H"
 #include "foam/writeTimes.H"
@@ -262,6 +263,15 @@ bool write(Foam::Time& runTime, const Halo& halo, CoupledStep& step, FoamFields&
     return isStopping;
 }
 
+/// As Time::run() decides it, which would start function objects. Returns whether it is so.
+bool reportEnded(const Foam::Time& runTime)
+{
+    const double endTime = runTime.endTime().value();
+    if (runTime.value() < endTime - 0.5*runTime.deltaTValue()) return false;
+    Foam::Info<< "Nothing to do: the run is at " << runTime.timeName() << " s, endTime of system/controlDict is " << endTime << " s" << Foam::endl;
+    return true;
+}
+
 enum class Task { Run, Check, WeighCells };
 
 /// False: a signal has ended the run before its time.
@@ -293,6 +303,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         FlowState state;
         fields.readStart(state);
         if (!isContinued) report(state);
+        reportEnded(runTime);
         checkInflow(adapter, halo, boundary, state, nullptr, runTime.value());
         reportPatches(controls, adapter, halo, boundary, state, nullptr, runTime.value());
         writeNumerics(Foam::Info, controls.numerics);
@@ -314,9 +325,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     installStopSignals();
 
     TimeControls time = controls.time;
-    if (!runTime.run())
-        Foam::Info<< "Nothing to do: the run is at " << runTime.timeName() << " s, endTime of system/controlDict is " << runTime.endTime().value() << " s" << Foam::endl;
-    else warnUnwritten(runTime, writeTimes);
+    if (!reportEnded(runTime)) warnUnwritten(runTime, writeTimes);
     bool isComplete = true;
     double dt = output.timeStep() > 0 ? output.timeStep() : firstStep(runTime, controls, adapter.mesh, halo)/timeStepGrowth;
     while (runTime.run())
@@ -367,6 +376,7 @@ int main(int argc, char* argv[])
     {
         flotsam::checkWriteInterval(args.rootPath()/args.globalCaseName()/"system"/Foam::Time::controlDictName);
         Foam::Time runTime(Foam::Time::controlDictName, args);
+        flotsam::checkMesh(runTime);
         Foam::fvMesh mesh
         (
             Foam::IOobject(Foam::fvMesh::defaultRegion, runTime.timeName(), runTime, Foam::IOobject::MUST_READ)

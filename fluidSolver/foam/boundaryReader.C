@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam/boundaryReader.H"
 #include "foam/dictionaryChecks.H"
+#include "foam/otherInput.H"
 
 #include "Time.H"
 #include "localIOdictionary.H"
@@ -19,7 +20,12 @@ public:
     :
         mesh_(mesh),
         dict_(Foam::IOobject(name, mesh.time().timeName(), mesh, Foam::IOobject::MUST_READ, Foam::IOobject::NO_WRITE, false), type)
-    {}
+    {
+        const auto strays = strayPatches(subGroup(dict_, "boundaryField"), mesh.boundaryMesh());
+        if (!strays.empty())
+            Foam::Info<< "Warning: " << mesh.time().timeName() << '/' << name.c_str() << " has conditions for what is no patch of the mesh: " << describeStray(strays, mesh.boundaryMesh()).c_str()
+                << ". They are not used" << Foam::nl;
+    }
 
     /// Entry of a patch by name, then group (last wins), then pattern: the order in which OpenFOAM reads fields.
     const Foam::dictionary& patch(const Foam::polyPatch& patch) const
@@ -29,7 +35,10 @@ public:
         for (auto entry = boundary.crbegin(); entry != boundary.crend(); ++entry)
             if (entry->isDict() && entry->keyword().isLiteral() && patch.inGroups().found(entry->keyword())) return entry->dict();
         if (!boundary.found(patch.name()))
-            failIn(boundary, text("Cannot find patchField entry for ", patch.name(), "."));
+        {
+            const auto strays = strayPatches(boundary, mesh_.boundaryMesh());
+            failIn(boundary, text("Patch '", patch.name(), "' of the mesh has no condition.", strays.empty() ? "" : text("\n    Not of the mesh: ", describeStray(strays, mesh_.boundaryMesh()))));
+        }
         return subGroup(boundary, patch.name());
     }
 

@@ -90,6 +90,11 @@ std::string gravityWarning(const FluidProperties& fluid, const SimplexMesh& mesh
     return "";
 }
 
+bool isOpenWall(const BoundaryPatch& patch, const SimplexMesh& mesh)
+{
+    return patch.velocity == BoundaryPatch::Velocity::Open && patch.meshPatch >= 0 && mesh.patches[patch.meshPatch].type == "wall";
+}
+
 } // namespace
 
 void checkGravity(const FluidProperties& fluid, const SimplexMesh& mesh)
@@ -127,7 +132,11 @@ void printCaseCheck(const CaseControls& controls, const MeshAdapter& adapter, co
     line("structures", structuresLine(scene));
     line("bodies", bodiesLine(scene));
     line("time step", describe(controls.time));
+    const std::string changed = changedNumerics(controls.numerics);
+    line("numerics", text(changed.empty() ? "all entries of `flotsam` have their defaults" : "defaults, but " + changed, "; solvers, PIMPLE (pRefValue excepted) and fvSchemes are not used"));
     for (const auto& patch : boundary) line("patch", describe(patch));
+    for (const auto& patch : boundary)
+        if (isOpenWall(patch, mesh)) line("warning", text("patch ", patch.name, " is of type wall, but its U lets fluid through. Give it noSlip or slip; in 2D the front and back are of type empty"));
     const bool hasLevel = std::any_of(boundary.begin(), boundary.end(), [](const BoundaryPatch& b) { return b.pressure != BoundaryPatch::Pressure::Natural; });
     if (!hasLevel) line("pressure level", text("none prescribed: in every basin mean in the gas (without gas: of all) pRefValue ", controls.fluid.pRefValue));
     if (scene.thinnestLinearBody > 0 && scene.thinnestLinearBody < counts.hMin)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam/controlsReader.H"
 #include "foam/dictionaryChecks.H"
+#include "foam/otherInput.H"
 
 #include "IFstream.H"
 #include "IOdictionary.H"
@@ -313,8 +314,11 @@ CaseControls readCaseControls(const Foam::Time& runTime)
     readTransport(Foam::IOdictionary(inputFile(runTime, "transportProperties", runTime.constant())), controls);
     if (exists(runTime, "turbulenceProperties"))
         checkLaminar(Foam::IOdictionary(inputFile(runTime, "turbulenceProperties", runTime.constant())));
+    if (exists(runTime, "momentumTransport")) // other OpenFOAM's name of it
+        checkLaminar(Foam::IOdictionary(inputFile(runTime, "momentumTransport", runTime.constant())));
     readGravity(runTime, controls);
     checkOtherModels(runTime);
+    if (runTime.functionObjects().status() && runTime.controlDict().found("functions")) checkFunctionObjects(subGroup(runTime.controlDict(), "functions"));
     const Foam::IOdictionary fvSolution(inputFile(runTime, "fvSolution", runTime.system()));
     warnMisspelt(fvSolution, "system/fvSolution", {"flotsam", "solvers", "PIMPLE", "PISO", "SIMPLE", "relaxationFactors", "cache", "potentialFlow", "residualControl"});
     warnMisspelt(runTime.controlDict(), "system/controlDict", controlDictEntries());
@@ -322,6 +326,20 @@ CaseControls readCaseControls(const Foam::Time& runTime)
     controls.fluid.pRefValue = readReferencePressure(fvSolution);
     controls.time = readTimeControls(runTime.controlDict());
     return controls;
+}
+
+std::string changedNumerics(const NumericsControls& numerics)
+{
+    const NumericsControls byDefault;
+    std::vector<std::string> changed;
+    for (const auto& entry : controlsTable())
+    {
+        const double value = numberOf(numerics, entry.member);
+        if (value == numberOf(byDefault, entry.member)) continue;
+        const bool isFlag = std::holds_alternative<bool NumericsControls::*>(entry.member);
+        changed.push_back(text(entry.keyword, ' ', isFlag ? (value != 0 ? "on" : "off") : text(value)));
+    }
+    return joined(changed);
 }
 
 void writeNumerics(Foam::Ostream& os, const NumericsControls& numerics)

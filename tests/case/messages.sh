@@ -57,6 +57,10 @@ refused overlap 'sed -i "s/    bar$/    copy { shape { type box; size (0.02 0.02
     bar copy into
 refused unknownShape 'sed -i "s/type box/type bocks/" constant/bodies' bodies bocks box
 refused unknownBodyKeyword 'sed -i "s/density/densty/" constant/bodies' densty density
+refused noMesh 'rm -r constant/polyMesh' 'There is no mesh' polyMesh/points blockMesh
+refused patchWithoutCondition 'sed -i "s/^    walls/    wals/" 0/U' 0/U "Patch 'walls' of the mesh has no condition" "'wals' (of walls?)"
+refused forces 'echo "functions { drag { type forces; libs (forces); patches (walls); } }" >> system/controlDict' "'drag' of type forces" controlDict.functions.drag 'enabled no'
+refused otherTurbulence 'sed "s/laminar/RAS/; s/turbulenceProperties/momentumTransport/" constant/turbulenceProperties > constant/momentumTransport' RAS momentumTransport 'allowed: laminar'
 refused wordForNumber 'sed -i "s/590;/wood;/" constant/bodies' "'density' is 'wood', but must be a number larger than 0" 'constant/bodies.bodies.bar.density at line 16'
 refused posesWithoutGroups 'sed -i "s/position .*(0 0.001 0.025);/poses ( (0 0.001 0.025) );/" constant/bodies' "'poses' is" 'list of groups' constant/bodies.bodies.bar.poses
 refused acrossMotion 'echo "structures { gate { shape { type box; size (0.02 0.05 0.05); } position (0.05 -0.05 0.025); motion { type linear; velocity (0 0 1); } } }" >> constant/bodies' \
@@ -123,6 +127,15 @@ sed -i 's/ 1000;/ 1;/' equal/constant/transportProperties
 rm -rf kicked && cp -r good kicked
 sed -i 's/uniform (0 0 0)/uniform (1 0 0)/' kicked/0/U
 (cd kicked && quietly flotsamFoam -dry-run && grep -q 'Warning: body bar is let go at rest in a stream of 1 m/s' log.flotsamFoam) || fail "a body at rest in a stream is not mentioned"
+rm -rf stray && cp -r good stray
+(cd stray && foamDictionary -entry boundaryField/atmospher -set '{ type slip; }' 0/U > /dev/null && quietly flotsamFoam -dry-run \
+    && grep -q "Warning: 0/U has conditions for what is no patch of the mesh: 'atmospher' (of atmosphere?)" log.flotsamFoam) || fail "a condition of no patch is not mentioned"
+rm -rf letThrough && cp -r good letThrough
+sed -i '/^    walls/,/}/s/type .*;/type zeroGradient;/' letThrough/0/U
+(cd letThrough && quietly flotsamFoam -dry-run && grep -q 'patch walls is of type wall, but its U lets fluid through' log.flotsamFoam) || fail "a wall that lets fluid through is not mentioned"
+rm -rf over && cp -r good over
+setEntry over/system/controlDict endTime 0
+(cd over && quietly flotsamFoam -dry-run && grep -q 'Nothing to do: the run is at 0 s, endTime of system/controlDict is 0 s' log.flotsamFoam) || fail "the dry run of nothing does not say so"
 rm -rf dry && cp -r good dry
 (cd dry && cp 0.orig/alpha.water 0/alpha.water && quietly flotsamFoam -dry-run && grep -q 'alpha.water of time 0 has no liquid' log.flotsamFoam) || fail "a tank without liquid is not mentioned"
 rm -rf thin && cp -r good thin

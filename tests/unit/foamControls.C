@@ -53,6 +53,8 @@ TEST_CASE("what is printed reads back as the same numbers")
     numerics.nitsche = false;
     numerics.densityClip = 0.01;
     numerics.restart = 55;
+    CHECK(changedNumerics(NumericsControls()).empty());
+    CHECK(changedNumerics(numerics) == "nitsche off, densityClip 0.01, restart 55");
     Foam::OStringStream os;
     writeNumerics(os, numerics);
     CHECK(has(os.str(), "[default " + std::to_string(NumericsControls().restart) + "]"));

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "foam/otherInput.H"
+
+#include "foam/dictionaryChecks.H"
+
+#include "Time.H"
+#include "processorPolyPatch.H"
+
+#include <algorithm>
+
+namespace flotsam
+{
+
+namespace
+{
+
+/// Of the function objects of OpenFOAM those that end the run without a turbulence model; others of their kind only warn.
+const std::vector<std::string> needTurbulence{"forces", "forceCoeffs", "wallShearStress", "wallHeatFlux", "turbulenceFields"};
+
+std::vector<std::string> namesOf(const Foam::polyBoundaryMesh& patches)
+{
+    std::vector<std::string> names;
+    for (const Foam::polyPatch& patch : patches)
+        if (!Foam::isA<Foam::processorPolyPatch>(patch)) names.push_back(patch.name());
+    return names;
+}
+
+} // namespace
+
+void checkFunctionObjects(const Foam::dictionary& functions)
+{
+    for (const Foam::entry& e : functions)
+    {
+        if (!e.isDict() || !readFlagOr(e.dict(), "enabled", true) || readFlagOr(e.dict(), "directForceDensity", false)) continue;
+        const std::string type = readWordOr(e.dict(), "type", "");
+        if (std::find(needTurbulence.begin(), needTurbulence.end(), type) == needTurbulence.end()) continue;
+        failIn(e.dict(), text("Function object '", std::string(e.keyword()), "' of type ", type, " needs OpenFOAM's turbulence model, which there is none of: it would end the run at its first step.\n"
+            "    Remove it, or set 'enabled no;'. surfaceFieldValue with areaIntegrate of p gives the pressure force on a plane patch; structures of constant/bodies have their forces in bodies.h5."));
+    }
+}
+
+std::vector<std::string> strayPatches(const Foam::dictionary& boundaryField, const Foam::polyBoundaryMesh& patches)
+{
+    std::vector<std::string> strays;
+    for (const Foam::entry& e : boundaryField)
+    {
+        const Foam::keyType& name = e.keyword();
+        const auto isMeant = [&](const Foam::polyPatch& patch) { return patch.name() == name || patch.inGroups().found(name); };
+        if (name.isLiteral() && e.isDict() && std::none_of(patches.begin(), patches.end(), isMeant)) strays.push_back(name);
+    }
+    return strays;
+}
+
+std::string describeStray(const std::vector<std::string>& strays, const Foam::polyBoundaryMesh& patches)
+{
+    std::vector<std::string> described;
+    for (const std::string& stray : strays)
+    {
+        const auto meant = nearestWords(stray, namesOf(patches));
+        described.push_back(text("'", stray, "'", meant.empty() ? "" : text(" (of ", meant.front(), "?)")));
+    }
+    return joined(described);
+}
+
+void checkMesh(const Foam::Time& runTime)
+{
+    const bool didThrow = Foam::FatalError.throwExceptions();
+    bool isThere = true;
+    try { runTime.findInstance(Foam::polyMesh::meshSubDir, "points"); } // as the mesh itself will look for it
+    catch (const Foam::error&) { isThere = false; }
+    Foam::FatalError.throwExceptions(didThrow);
+    if (isThere) return;
+    failOnAll(text("There is no mesh: ", std::string(runTime.path()/runTime.constant()/Foam::polyMesh::meshSubDir), "/points is missing.\n"
+        "    Make one with blockMesh, snappyHexMesh or a converter (gmshToFoam, fluentMeshToFoam, ..)", Foam::Pstream::parRun() ? ", then decomposePar." : "."));
+}
+
+} // namespace flotsam
