@@ -115,13 +115,16 @@ std::vector<std::string> wallPatches(const Foam::dictionary& dict, const Foam::p
         if (choice != "all" && choice != "none") failUnknown(dict, "wallPatches", choice, {"all", "none", "(names of patches)"});
         return choice == "all" ? walls : std::vector<std::string>();
     }
-    walls.clear();
+    std::vector<std::string> named;
     for (const std::string& name : readWords(dict, "wallPatches"))
     {
         if (std::find(all.begin(), all.end(), name) == all.end()) failUnknown(dict, "patch", name, all);
-        walls.push_back(name);
+        if (mesh.boundaryMesh()[name].type() == "empty")
+            failIn(dict, text("'wallPatches' names ", name, ", of type empty: it is the front or back of a 2D mesh, which bodies do not feel.\n    Name what they may touch, or leave the entry out: ",
+                walls.empty() ? "none" : joined(walls), '.'));
+        named.push_back(name);
     }
-    return walls;
+    return named;
 }
 
 TriSurface inSpace(TriSurface surface, const Pose& pose)

@@ -95,6 +95,11 @@ std::vector<std::string> doubtfulBodies(const BodiesInput& input, const FluidPro
     if (const auto [body, who] = firstOf(input, isBalloon); body)
         doubts.push_back(text("body ", who, " is lighter than the gas (density ", body->mass/body->volume, ", gas ", fluid.rhoGas,
             " kg/m^3) and rises in it. Densities are in kg/m^3, not over water's"));
+    constexpr double densest = 22600;   // osmium [kg/m^3]
+    const auto isImpossible = [&](const BodyDefinition& b) { return b.mass > densest*b.volume; };
+    if (const auto [body, who] = firstOf(input, isImpossible); body)
+        doubts.push_back(text("body ", who, " has density ", body->mass/body->volume, " kg/m^3, more than any matter: mass ", body->mass, " kg in ", body->volume,
+            " m^3. Is `mass` in kg, `density` in kg/m^3, the shape in m? In 2D the mass is that of the mesh's thickness"));
 
     const auto& g = fluid.gravity;
     const double gravity = std::hypot(g[0], g[1], g[2]);

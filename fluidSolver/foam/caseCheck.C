@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace flotsam
 {
@@ -85,6 +86,8 @@ std::string gravityWarning(const FluidProperties& fluid, const SimplexMesh& mesh
 {
     const auto& g = fluid.gravity;
     if (strength(g) == 0) return fluid.isTwoPhase ? "constant/g is (0 0 0): nothing keeps the lighter fluid above" : "";
+    for (const auto& [unit, factor] : {std::pair("cm", 100), std::pair("mm", 1000)})
+        if (std::abs(strength(g) - 9.81*factor) < 0.005*9.81*factor) return text("constant/g has ", strength(g), " m/s^2, which is the earth's gravity in ", unit, "/s^2. Units are SI, lengths in m");
     if (across(g, mesh) > roundOff*strength(g))
         return text("gravity acts along ", "xyz"[mesh.axes[2]], ", across this 2D mesh: that part does nothing. Give constant/g in the plane of the mesh");
     return "";

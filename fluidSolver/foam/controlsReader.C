@@ -222,7 +222,32 @@ void warnMisspelt(const Foam::dictionary& dict, const std::string& file, const s
         Foam::Info << "Warning: " << file.c_str() << ": nothing reads entry '" << found.c_str() << "'. Did you mean: " << meant.c_str() << " ?" << Foam::nl;
 }
 
+/// Entries of `flotsam`, and itself, in the dictionaries beside it. Names that OpenFOAM's solvers know as well are left alone.
+void warnMisplaced(const Foam::dictionary& fvSolution)
+{
+    for (const auto& [place, keyword] : misplacedNumerics(fvSolution))
+        Foam::Info<< "Warning: system/fvSolution: nothing reads entry '" << keyword.c_str() << "' in " << place.c_str() << ". It belongs in `flotsam { .. }`, beside PIMPLE and solvers" << Foam::nl;
+}
+
 } // namespace
+
+std::vector<std::pair<std::string, std::string>> misplacedNumerics(const Foam::dictionary& fvSolution)
+{
+    const std::vector<std::string> shared{"tolerance", "maxIterations", "restart", "penalty", "mobility"};
+    std::vector<std::string> ours{"flotsam"};
+    for (const auto& entry : controlsTable())
+        if (std::find(shared.begin(), shared.end(), entry.keyword) == shared.end()) ours.push_back(entry.keyword);
+    std::vector<std::pair<std::string, std::string>> found;
+    const auto look = [&](const Foam::dictionary& dict, const std::string& place, bool isTop)
+    {
+        for (const Foam::entry& e : dict)
+            if (const std::string keyword(e.keyword()); std::find(ours.begin(), ours.end(), keyword) != ours.end() && !(isTop && keyword == "flotsam")) found.emplace_back(place, keyword);
+    };
+    look(fvSolution, "the file itself", true);
+    for (const Foam::entry& e : fvSolution)
+        if (e.isDict() && e.keyword() != "flotsam") look(e.dict(), e.keyword(), false);
+    return found;
+}
 
 std::vector<std::string> controlDictEntries()
 {
@@ -321,6 +346,7 @@ CaseControls readCaseControls(const Foam::Time& runTime)
     if (runTime.functionObjects().status() && runTime.controlDict().found("functions")) checkFunctionObjects(subGroup(runTime.controlDict(), "functions"));
     const Foam::IOdictionary fvSolution(inputFile(runTime, "fvSolution", runTime.system()));
     warnMisspelt(fvSolution, "system/fvSolution", {"flotsam", "solvers", "PIMPLE", "PISO", "SIMPLE", "relaxationFactors", "cache", "potentialFlow", "residualControl"});
+    warnMisplaced(fvSolution);
     warnMisspelt(runTime.controlDict(), "system/controlDict", controlDictEntries());
     controls.numerics = readNumerics(fvSolution);
     controls.fluid.pRefValue = readReferencePressure(fvSolution);

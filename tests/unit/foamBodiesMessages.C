@@ -101,9 +101,12 @@ TEST_CASE("poses that are no list of groups are shown with how they are written"
     CHECK(s.message(bodies(bar + "poses ( { position (0.5 0.5 0.2); } );")).empty());
 }
 
-TEST_CASE("2D: a structure moves in the plane of the mesh and turns across it")
+TEST_CASE("2D: a structure moves in the plane of the mesh and turns across it, and nothing touches front and back")
 {
     BodiesScene s(false);
+    const std::string cube = "bodies { cube { shape { type box; size (0.1 0.1 0.1); } density 600; position (0.5 0.5 0.05); } } ";
+    CHECK(has(s.message("wallPatches (floor frontAndBack); " + cube), "'wallPatches' names frontAndBack, of type empty"));
+    CHECK(s.message("wallPatches (floor outlet); " + cube).empty());
     const auto message = [&](const std::string& motion)
     { return s.message("structures { gate { shape { type box; size (0.1 0.1 0.1); } position (1.5 0.5 0.05); motion { " + motion + " } } }"); };
     CHECK(has(message("type linear; velocity (1 0 0.5);"), "velocity of structure gate along z is 0.5; allowed: 0"));
@@ -241,4 +244,8 @@ TEST_CASE("bodies lighter than the gas, those that their weight presses deep int
     REQUIRE(absent.size() == 1);
     CHECK(has(absent[0], "body cube.0 (and 1 more) does not enter"));
     CHECK(doubts("stiffness 1000; perBody off;", "mass 1;").empty());
+    CHECK(doubts("stiffness 1e8;", "density 19300;").empty());
+    const auto heavy = doubts("stiffness 1e8;", "mass 590;");
+    REQUIRE(heavy.size() == 1);
+    CHECK(has(heavy[0], "body cube.0 (and 1 more) has density 590000 kg/m^3, more than any matter: mass 590 kg in 0.001 m^3"));
 }

@@ -112,6 +112,10 @@ TEST_CASE("report of a channel with and without bodies")
     const auto g = controls.fluid.gravity;
     controls.fluid.gravity = {0, -9.81, -1};
     CHECK(capture(scene).find("gravity acts along z, across this 2D mesh") != std::string::npos);
+    controls.fluid.gravity = {0, -981, 0};
+    CHECK(capture(scene).find("constant/g has 981 m/s^2, which is the earth's gravity in cm/s^2") != std::string::npos);
+    controls.fluid.gravity = {0, -50*9.81, 0};      // a centrifuge
+    CHECK(capture(scene).find("warning") == std::string::npos);
     controls.fluid.gravity = {0, 0, 0};
     CHECK(capture(scene).find("constant/g is (0 0 0)") != std::string::npos);
     controls.fluid.isTwoPhase = false;

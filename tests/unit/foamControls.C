@@ -101,6 +101,14 @@ TEST_CASE("controlDict: what looks like a known entry that is not there is found
     CHECK(found("deltaT 1; deltaT2 1; endTime 3; endTimeLong 4; maxDi 2; h 0.1; U0 1; co 3; \"max.*\" 1; functions { maxco { type probes; } }").empty());
 }
 
+TEST_CASE("fvSolution: entries of flotsam that stand elsewhere are found, those of OpenFOAM left alone")
+{
+    using Pairs = std::vector<std::pair<std::string, std::string>>;
+    CHECK(misplacedNumerics(parse("PIMPLE { nCorrectors 3; flotsam { nitsche off; } } solvers { p { tolerance 1e-6; maxIter 3; } } flotsam { nitsche off; }")) == Pairs{{"PIMPLE", "flotsam"}});
+    CHECK(misplacedNumerics(parse("nitscheGamma 3; PISO { timeOrder 1; }")) == Pairs{{"the file itself", "nitscheGamma"}, {"PISO", "timeOrder"}});
+    CHECK(misplacedNumerics(parse("tolerance 1; solvers { \".*\" { tolerance 1e-6; restart 3; } } PIMPLE { maxIterations 4; } flotsam { timeOrder 1; }")).empty());
+}
+
 TEST_CASE("two fluids as interFoam: the first phase is the liquid, entries with and without dimensions")
 {
     CaseControls c;
