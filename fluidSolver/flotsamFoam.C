@@ -55,7 +55,7 @@ SceneCounts countScene(const BodiesInput& input)
     for (const BodyDefinition& b : input.bodies)
     {
         counts.bodiesToCome += b.entersAtRelease;
-        counts.demSpheres += long(b.spheres.size());
+        counts.demSpheres += long(b.spheres.size() + b.corners.size());
     }
     for (const MoverDefinition& m : input.movers) counts.demSpheres += long(m.spheres.size());
     counts.walls = int(input.walls.size());

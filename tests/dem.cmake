@@ -6,6 +6,7 @@ flotsam_test(demEngine unit SOURCES unit/demEngine.cpp ${dem_support} LIBRARIES 
 flotsam_test(demState unit SOURCES unit/demState.cpp ${dem_support} LIBRARIES flotsam_liggghts RANKS 1 2)
 flotsam_test(demWalls unit SOURCES unit/demWalls.cpp ${dem_support} LIBRARIES flotsam_liggghts)
 flotsam_test(demMovers unit SOURCES unit/demMovers.cpp ${dem_support} LIBRARIES flotsam_liggghts)
+flotsam_test(demCorners unit SOURCES unit/demCorners.cpp ${dem_support} LIBRARIES flotsam_liggghts)
 flotsam_test(demMotion verification SOURCES verification/demMotion.cpp ${dem_support} LIBRARIES flotsam_liggghts)
 flotsam_test(demContact verification SOURCES verification/demContact.cpp ${dem_support} LIBRARIES flotsam_liggghts)
 flotsam_test(couplingRecord unit SOURCES unit/couplingRecord.cpp LIBRARIES flotsam_coupling)

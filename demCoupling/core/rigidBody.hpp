@@ -36,6 +36,7 @@ struct BodyDefinition
     double volume = 0;                      ///< exact volume of the shape [m^3]
     Vec3 principalInertia = Vec3::Zero();   ///< [kg m^2], exact
     std::vector<SurfaceSphere> spheres;     ///< DEM surface, body frame
+    std::vector<SurfaceSphere> corners;     ///< smaller ones that touch walls alone, no other body
     int material = 0;                       ///< index of the contact material
     Pose pose;                              ///< at the start
     Motion motion;
@@ -50,8 +51,17 @@ struct BodyDefinition
 inline double outerRadius(const BodyDefinition& body)
 {
     double radius = 0;
-    for (const SurfaceSphere& s : body.spheres) radius = std::max(radius, s.centre.norm() + s.radius);
+    for (const auto* spheres : {&body.spheres, &body.corners})
+        for (const SurfaceSphere& s : *spheres) radius = std::max(radius, s.centre.norm() + s.radius);
     return radius;
+}
+
+/// With the corners behind the others.
+inline std::vector<SurfaceSphere> spheresAtWalls(const BodyDefinition& body)
+{
+    std::vector<SurfaceSphere> all = body.spheres;
+    all.insert(all.end(), body.corners.begin(), body.corners.end());
+    return all;
 }
 
 /// Speed of the fastest corner of a box around a body, whose lower and upper corners are given in its own frame [m/s]: no point of the body is faster. A log that

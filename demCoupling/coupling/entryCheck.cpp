@@ -21,12 +21,12 @@ double distanceOf(const BodyDefinition& body, const Pose& pose, const Vec3& x)
     return body.shape->distance(pose.orientation.conjugate()*(x - pose.position));
 }
 
-/// Of the spheres of `body` from what `distance` is the distance of.
+/// Of spheres in the frame of the pose from what `distance` is the distance of.
 template<class Distance>
-double gapOfSpheres(const BodyDefinition& body, const Pose& pose, const Distance& distance)
+double gapOfSpheres(const std::vector<SurfaceSphere>& spheres, const Pose& pose, const Distance& distance)
 {
     double gap = 1e300;
-    for (const SurfaceSphere& s : body.spheres) gap = std::min(gap, distance(pose.position + pose.orientation*s.centre) - s.radius);
+    for (const SurfaceSphere& s : spheres) gap = std::min(gap, distance(pose.position + pose.orientation*s.centre) - s.radius);
     return gap;
 }
 
@@ -84,15 +84,15 @@ bool EntryCheck::touches(int body, int other, const Pose& pose) const
     const BodyDefinition &a = bodies_[body], &b = bodies_[other];
     const double gap = gapOfThickness*std::min(a.thinnest, b.thinnest);
     if ((a.pose.position - pose.position).norm() > extents_[body] + extents_[other] + gap) return false;
-    return gapOfSpheres(a, a.pose, [&](const Vec3& x) { return distanceOf(b, pose, x); }) < gap
-        || gapOfSpheres(b, pose, [&](const Vec3& x) { return distanceOf(a, a.pose, x); }) < gap;
+    return gapOfSpheres(a.spheres, a.pose, [&](const Vec3& x) { return distanceOf(b, pose, x); }) < gap
+        || gapOfSpheres(b.spheres, pose, [&](const Vec3& x) { return distanceOf(a, a.pose, x); }) < gap;
 }
 
 bool EntryCheck::touches(int body, const Solid& structure) const
 {
     const BodyDefinition& b = bodies_[body];
     if ((b.pose.position - structure.pose.position).norm() > extents_[body] + structure.radius() + b.thinnest) return false;
-    return gapOfSpheres(b, b.pose, [&](const Vec3& x) { return structure.distance(x); }) < gapOfThickness*b.thinnest;
+    return gapOfSpheres(spheresAtWalls(b), b.pose, [&](const Vec3& x) { return structure.distance(x); }) < gapOfThickness*b.thinnest;
 }
 
 /// Nodes of the elements that the body reaches into, or that have a node within half an element from it.

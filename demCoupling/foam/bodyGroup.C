@@ -318,6 +318,7 @@ std::shared_ptr<const SampledShape> sampleShape(std::shared_ptr<const Shape> sha
 
 void makeSpheres(std::vector<BodyGroup>& groups)
 {
+    constexpr double cornerShare = 1.0/16; // radius of corners over the thickness (docs/contact.md)
     double smallest = 1e300;
     for (const BodyGroup& g : groups) smallest = std::min(smallest, g.sphereRadius);
     for (BodyGroup& g : groups)
@@ -325,8 +326,12 @@ void makeSpheres(std::vector<BodyGroup>& groups)
         const double spacing = g.sphereSpacing > 0 ? g.sphereSpacing : closedSpacing(g.sphereRadius, smallest);
         const double ofRows = g.sphereSpacing > 0 ? g.sphereSpacing : 0.5*g.sphereRadius;
         BodyDefinition& body = g.prototype;
-        body.spheres = body.isPlanar ? sectionSpheres(*body.shape, Vec3::Zero(), body.pose.orientation.conjugate()*Vec3::Unit(body.planeAxis), g.sphereRadius, spacing, ofRows)
+        const Vec3 across = body.pose.orientation.conjugate()*Vec3::Unit(body.planeAxis);
+        body.spheres = body.isPlanar ? sectionSpheres(*body.shape, Vec3::Zero(), across, g.sphereRadius, spacing, ofRows)
                                      : surfaceSpheres(*body.shape, g.sphereRadius, spacing, ofRows);
+        const double ofCorners = cornerShare*body.thinnest;
+        if (ofCorners < (1 - 1e-9)*body.spheres.front().radius)
+            body.corners = body.isPlanar ? sectionCorners(*body.shape, Vec3::Zero(), across, ofCorners) : cornerSpheres(*body.shape, ofCorners);
     }
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <tuple>
 
 namespace flotsam
@@ -57,42 +58,55 @@ bool sharesFace(const DemSetup& setup, int material)
     return false;
 }
 
-using Key = std::tuple<int, long, int>;
+/// Material, mass, spheres of a face, weight of its corners, stiffening.
+using Key = std::tuple<int, long, int, double, double>;
+struct BodyKeys { Key spheres, corners; };
 
 /// Masses closer than a factor of 1+`tolerance` fall into one class.
-std::vector<Key> bodyKeys(const DemSetup& setup, double tolerance)
+std::vector<BodyKeys> bodyKeys(const DemSetup& setup, double tolerance)
 {
-    std::vector<Key> keys;
+    const auto rounded = [](double value) { return 1e-6 * std::round(1e6 * value); };
+    std::vector<BodyKeys> keys;
     for (const BodyDefinition& body : setup.bodies)
     {
         const int faceCount = sharesFace(setup, body.material) ? flattestFaceCount(body) : 1;
-        keys.emplace_back(body.material, std::lround(std::log(body.mass) / std::log1p(tolerance)), faceCount);
+        const double stiffening = rounded(cornerStiffening(body));
+        const Key own(body.material, std::lround(std::log(body.mass) / std::log1p(tolerance)), faceCount, cornersOfFace(body) * stiffening, 1);
+        keys.push_back({own, own});
+        if (!body.corners.empty())
+            std::get<4>(keys.back().corners) = stiffening;
     }
     return keys;
 }
 
+/// The class of the key, made if there is none; of the smallest mass in it, which gives the smaller damping and never a stiffer dashpot.
+int classOf(const Key& key, double mass, std::map<Key, int>& known, ContactTable& table)
+{
+    const auto [it, isNew] = known.emplace(key, table.size());
+    if (isNew)
+        table.classes.push_back({false, std::get<0>(key), mass, std::get<2>(key), std::get<4>(key), std::get<3>(key)});
+    ContactClass& c = table.classes[static_cast<size_t>(it->second)];
+    c.mass = std::min(c.mass, mass);
+    return it->second;
+}
+
 void addBodyClasses(const DemSetup& setup, ContactTable& table)
 {
-    std::vector<Key> keys;
+    std::vector<BodyKeys> keys;
     for (double tolerance = 1e-6;; tolerance *= 4)
     {
         keys = bodyKeys(setup, tolerance);
-        std::map<Key, int> distinct;
-        for (const Key& key : keys)
-            distinct.emplace(key, 0);
+        std::set<Key> distinct;
+        for (const BodyKeys& key : keys)
+            distinct.insert({key.spheres, key.corners});
         if (static_cast<int>(distinct.size()) <= largestClassCount || tolerance > 1)
             break;
     }
-    std::map<Key, int> classOf;
+    std::map<Key, int> known;
     for (size_t b = 0; b < keys.size(); ++b)
     {
-        const auto [it, isNew] = classOf.emplace(keys[b], table.size());
-        if (isNew)
-            table.classes.push_back({false, setup.bodies[b].material, setup.bodies[b].mass, std::get<2>(keys[b])});
-        // mass of a shared class: the smallest, which gives the smaller damping and never a stiffer dashpot
-        ContactClass& c = table.classes[static_cast<size_t>(it->second)];
-        c.mass = std::min(c.mass, setup.bodies[b].mass);
-        table.classOfBody.push_back(it->second);
+        table.classOfBody.push_back(classOf(keys[b].spheres, setup.bodies[b].mass, known, table));
+        table.classOfCorners.push_back(classOf(keys[b].corners, setup.bodies[b].mass, known, table));
     }
 }
 
@@ -103,7 +117,7 @@ void addWallClasses(const DemSetup& setup, ContactTable& table)
     {
         const auto [it, isNew] = classOf.emplace(checkedMaterial(wall.material, setup, wall.name), table.size());
         if (isNew)
-            table.classes.push_back({true, wall.material, 0, 1});
+            table.classes.push_back({true, wall.material, 0});
         table.classOfWall.push_back(it->second);
     }
 }
@@ -124,39 +138,48 @@ int sharedCount(const ContactClass& a, const ContactClass& b)
     return b.isWall ? a.faceCount : std::min(a.faceCount, b.faceCount);
 }
 
+/// Stiffness of a flat landing of this pair over that of one of its spheres, which are no corners.
+double sharedWeight(const ContactClass& a, const ContactClass& b)
+{
+    const bool isAtWall = a.isWall || b.isWall; // corners touch no bodies
+    return sharedCount(a, b) + (isAtWall ? a.cornerWeight + b.cornerWeight : 0);
+}
+
 using Directions = std::vector<Vec3>;
+struct ContactPoint { Vec3 place; double weight; };
+using ContactPoints = std::vector<ContactPoint>;
 
 /// Largest eigenvalue [1/kg] of M^-1 sum(A^T A): the square of the highest frequency of the free body on springs of
-/// unit stiffness at these points, in these directions.
-double stiffestMode(const BodyDefinition& body, const std::vector<Vec3>& points, const Directions& directions)
+/// these stiffnesses [1] at these points, in these directions.
+double stiffestMode(const BodyDefinition& body, const ContactPoints& points, const Directions& directions)
 {
     Eigen::Matrix<double, 6, 6> stiffness = Eigen::Matrix<double, 6, 6>::Zero();
     Eigen::Matrix<double, 6, 1> inverseRoot, row;
     inverseRoot.head<3>().setConstant(1 / std::sqrt(body.mass));
     inverseRoot.tail<3>() = body.principalInertia.cwiseSqrt().cwiseInverse();
-    for (const Vec3& r : points)
+    for (const ContactPoint& point : points)
         for (const Vec3& direction : directions)
         {
-            row << direction, r.cross(direction);
+            row << direction, point.place.cross(direction);
             row.array() *= inverseRoot.array();
-            stiffness += row * row.transpose();
+            stiffness += point.weight * row * row.transpose();
         }
     return Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(stiffness, Eigen::EigenvaluesOnly)
         .eigenvalues()
         .maxCoeff();
 }
 
-/// Contact points of the spheres that touch the plane of normal +-axis, in the body frame.
-std::vector<Vec3> facePoints(const BodyDefinition& body, int axis, double sign)
+/// Of those of the spheres that touch the plane of normal +-axis, in the body frame.
+ContactPoints facePoints(const BodyDefinition& body, const std::vector<SurfaceSphere>& spheres, double weight, int axis, double sign)
 {
     const double extent = outerRadius(body);
     double top = -1e300;
     for (const SurfaceSphere& s : body.spheres)
         top = std::max(top, sign * s.centre[axis] + s.radius);
-    std::vector<Vec3> points;
-    for (const SurfaceSphere& s : body.spheres)
+    ContactPoints points;
+    for (const SurfaceSphere& s : spheres)
         if (sign * s.centre[axis] + s.radius > top - 1e-6 * std::max(1.0, extent))
-            points.push_back(s.centre + Vec3::Unit(axis) * (sign * s.radius));
+            points.push_back({s.centre + Vec3::Unit(axis) * (sign * s.radius), weight});
     return points;
 }
 
@@ -166,27 +189,71 @@ bool canLandOn(const BodyDefinition& body, int axis)
     return !body.isPlanar || std::abs((body.pose.orientation * Vec3::Unit(axis))[body.planeAxis]) < 0.5;
 }
 
-/// Stiffest modes of the body on one sphere, and landing flat on any of its faces: springs act in all directions, dashpots only
-/// along the normal.
-struct ContactModes { double sphere = 0, face = 0, faceDashpots = 0; };
+/// Largest number of spheres that touch one plane at once, over the six principal directions.
+int largestFace(const BodyDefinition& body, const std::vector<SurfaceSphere>& spheres)
+{
+    size_t count = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double sign : {-1.0, 1.0})
+            if (canLandOn(body, axis))
+                count = std::max(count, facePoints(body, spheres, 1, axis, sign).size());
+    return static_cast<int>(count);
+}
 
-ContactModes stiffestModes(const BodyDefinition& body)
+/// Stiffest modes of the body on one sphere, one corner, and landing flat on any of its faces: springs act in all directions, dashpots only
+/// along the normal.
+struct ContactModes { double sphere = 0, corner = 0, face = 0, faceNormal = 0, faceDashpots = 0; };
+
+/// Per stiffness and dashpot of a sphere that is no corner; corners have these weights, 0 where the other one is no wall.
+ContactModes stiffestModes(const BodyDefinition& body, double cornerSpring, double cornerDashpot)
 {
     const Directions all = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
     ContactModes modes;
+    const auto take = [&](double& mode, const ContactPoints& points, const Directions& directions)
+    { mode = std::max(mode, stiffestMode(body, points, directions)); };
     for (int axis = 0; axis < 3; ++axis)
         for (const double sign : {-1.0, 1.0})
         {
             if (!canLandOn(body, axis))
                 continue;
-            const std::vector<Vec3> points = facePoints(body, axis, sign);
-            modes.face = std::max(modes.face, stiffestMode(body, points, all));
-            modes.faceDashpots = std::max(modes.faceDashpots, stiffestMode(body, points, {Vec3::Unit(axis)}));
-            for (const Vec3& point : points)
-                modes.sphere = std::max(modes.sphere, stiffestMode(body, {point}, all));
+            const ContactPoints spheres = facePoints(body, body.spheres, 1, axis, sign);
+            const auto together = [&](double cornerWeight)
+            {
+                ContactPoints points = facePoints(body, body.corners, cornerWeight, axis, sign);
+                points.insert(points.begin(), spheres.begin(), spheres.end());
+                return points;
+            };
+            take(modes.face, together(cornerSpring), all);
+            take(modes.faceNormal, together(cornerSpring), {Vec3::Unit(axis)});
+            take(modes.faceDashpots, together(cornerDashpot), {Vec3::Unit(axis)});
+            for (const ContactPoint& point : spheres)
+                take(modes.sphere, {point}, all);
+            for (const ContactPoint& point : facePoints(body, body.corners, cornerSpring, axis, sign))
+                take(modes.corner, {point}, all);
         }
     return modes;
 }
+
+/// Of a body touching what is no wall, and walls by either way of sharing the law.
+class ModesOfBody
+{
+public:
+    explicit ModesOfBody(const BodyDefinition& body) : other_(stiffestModes(body, 0, 0))
+    {
+        const double spring = cornerStiffening(body);
+        wall_ = body.corners.empty() ? other_ : stiffestModes(body, spring, std::sqrt(spring));
+        flatWall_ = body.corners.empty() ? other_ : stiffestModes(body, spring, spring);
+    }
+    const ContactModes& of(const ContactClass& other, const ContactLaw& law) const
+    {
+        if (!other.isWall)
+            return other_;
+        return law.perBody && law.flatRestitution ? flatWall_ : wall_;
+    }
+
+private:
+    ContactModes other_, wall_, flatWall_;
+};
 
 /// Held between neighbours on several sides, the partner moving as well: the square of the highest frequency and the largest rate of
 /// damping are about this many times those of the body landing on a fixed plane.
@@ -224,14 +291,13 @@ double dampingRatioFor(double restitution)
     return 0.5 * (low + high);
 }
 
-int flattestFaceCount(const BodyDefinition& body)
+int flattestFaceCount(const BodyDefinition& body) { return std::max(1, largestFace(body, body.spheres)); }
+
+int cornersOfFace(const BodyDefinition& body) { return largestFace(body, body.corners); }
+
+double cornerStiffening(const BodyDefinition& body)
 {
-    size_t count = 1;
-    for (int axis = 0; axis < 3; ++axis)
-        for (const double sign : {-1.0, 1.0})
-            if (canLandOn(body, axis))
-                count = std::max(count, facePoints(body, axis, sign).size());
-    return static_cast<int>(count);
+    return body.corners.empty() ? 1 : body.spheres.front().radius / body.corners.front().radius;
 }
 
 ContactTable makeContactTable(const DemSetup& setup)
@@ -248,10 +314,12 @@ ContactTable makeContactTable(const DemSetup& setup)
             const ContactLaw& law = lawOf(setup, a.material, b.material);
             const int n = law.perBody ? sharedCount(a, b) : 1;
             const double mass = a.isWall && b.isWall ? 1 : effectiveMass(a, b); // walls never meet
-            table.stiffness.push_back(law.stiffness / n);
+            const double stiffening = a.stiffening * b.stiffening;
+            table.stiffness.push_back(law.stiffness / n * stiffening);
             // one sphere: stiffness K/n needs sqrt(1/n) of the damping for the same ratio; n spheres at once: 1/n
             const double share = law.flatRestitution ? n : std::sqrt(n);
-            table.damping.push_back(2 * dampingRatioFor(law.restitution) * std::sqrt(law.stiffness * mass) / share);
+            const double ofCorners = law.perBody && law.flatRestitution ? stiffening * std::sqrt(n / sharedWeight(a, b)) : std::sqrt(stiffening);
+            table.damping.push_back(2 * dampingRatioFor(law.restitution) * std::sqrt(law.stiffness * mass) / share * ofCorners);
             table.friction.push_back(std::tan(law.frictionAngleDeg * pi / 180));
         }
     return table;
@@ -270,6 +338,7 @@ double ContactTable::dampingOf(int typeA, int typeB) const
 double contactTimeStep(const DemSetup& setup, const ContactTable& table)
 {
     constexpr double stepsPerContact = 40;
+    constexpr double stepsPerCorner = 20;   // errs by 0.2 % of the restitution (docs/contact.md)
     constexpr double stabilityMargin = 0.8;
     // velocity Verlet with a dashpot that takes the part d of a velocity, half a step late, is stable for omega^2 dt^2 + 2 d < 4
     const double limit = stabilityMargin * std::sqrt(2.0);
@@ -278,16 +347,22 @@ double contactTimeStep(const DemSetup& setup, const ContactTable& table)
     const int n = table.size();
     for (size_t b = 0; b < setup.bodies.size(); ++b)
     {
-        const ContactModes modes = stiffestModes(setup.bodies[b]);
+        const ModesOfBody modesOf(setup.bodies[b]);
         for (int other = 0; other < n; ++other)
         {
-            const ContactLaw& law = lawOf(setup, setup.bodies[b].material, table.classes[static_cast<size_t>(other)].material);
+            const ContactClass& partner = table.classes[static_cast<size_t>(other)];
+            if (partner.isCorner())
+                continue; // touches walls alone
+            const ContactLaw& law = lawOf(setup, setup.bodies[b].material, partner.material);
+            const ContactModes& modes = modesOf.of(partner, law);
             const size_t entry = static_cast<size_t>(table.classOfBody[b] * n + other);
             const double k = table.stiffness[entry];
             const double resolved = law.perBody && law.flatRestitution ? modes.face : modes.sphere;
             // a flat landing that stops in one sub-step has the damping ratio 1/(2 omega dt)
             const double stop = 1 / (table.damping[entry] * modes.faceDashpots);
-            const double dead = 0.5 / (std::sqrt(k * modes.faceDashpots) * dampingRatioFor(flatShare * law.restitution));
+            const double dead = 0.5 / (std::sqrt(k * modes.faceNormal) * dampingRatioFor(flatShare * law.restitution));
+            if (modes.corner > 0)
+                step = std::min(step, pi / std::sqrt(k * modes.corner) / stepsPerCorner);
             step = std::min({step, pi / std::sqrt(k * resolved) / stepsPerContact, limit / std::sqrt(squeeze * k * modes.face),
                              std::max(stop, dead)});
         }
@@ -304,7 +379,8 @@ void compensateLag(const DemSetup& setup, double step, ContactTable& table)
         if (a.isWall && b.isWall)
             continue;
         const ContactLaw& law = lawOf(setup, a.material, b.material);
-        const int together = law.perBody && law.flatRestitution ? sharedCount(a, b) : 1; // for which the restitution is made
+        // over this one's dashpot, that of the contact for which the restitution is made
+        const double together = law.perBody && law.flatRestitution ? sharedWeight(a, b) / (a.stiffening * b.stiffening) : 1;
         const double z = together * table.damping[entry] * step / effectiveMass(a, b);
         // c^2 / (m - c dt/2) is to be what c^2 / m was
         table.damping[entry] /= z / 4 + std::sqrt(1 + z * z / 16);
@@ -318,9 +394,15 @@ int dampingLevels(const DemSetup& setup, const ContactTable& table, double step)
     const int n = table.size();
     for (size_t b = 0; b < setup.bodies.size(); ++b)
     {
-        const double dashpots = stiffestModes(setup.bodies[b]).faceDashpots;
+        const ModesOfBody modesOf(setup.bodies[b]);
         for (int other = 0; other < n; ++other)
+        {
+            const ContactClass& partner = table.classes[static_cast<size_t>(other)];
+            if (partner.isCorner())
+                continue; // touches walls alone
+            const double dashpots = modesOf.of(partner, lawOf(setup, setup.bodies[b].material, partner.material)).faceDashpots;
             rate = std::max(rate, squeeze * table.damping[static_cast<size_t>(table.classOfBody[b] * n + other)] * dashpots);
+        }
     }
     return 1 + DampingLevel::of(margin * rate * step);
 }

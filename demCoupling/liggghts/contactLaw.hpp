@@ -16,13 +16,23 @@ double dampingRatioFor(double restitution);
 /// Largest number of spheres that touch one plane at once, over the six principal directions of the body.
 int flattestFaceCount(const BodyDefinition& body);
 
+/// The same of its corners.
+int cornersOfFace(const BodyDefinition& body);
+
+/// Stiffness of a corner over that of another sphere of the body: it bears as much before its centre reaches the wall. 1 without corners.
+double cornerStiffening(const BodyDefinition& body);
+
 /// What the contact numbers depend on; LIGGGHTS calls it an atom type.
 struct ContactClass
 {
     bool isWall = false;
     int material = 0;
     double mass = 0;    ///< of the body [kg]; unused for walls
-    int faceCount = 1;  ///< spheres that share the law of the body in a flat landing
+    int faceCount = 1;  ///< spheres that share the law of the body in a flat landing, corners not counted
+    double stiffening = 1;  ///< of corners: of their stiffness over that of the body's other spheres
+    double cornerWeight = 0;    ///< sum of the stiffening of the corners that land with the flattest face
+
+    bool isCorner() const { return stiffening != 1; }
 };
 
 /// Share of their damping that contacts keep which would take z times a velocity in a sub-step (SphereDamping): 1/z where z exceeds 1, in
@@ -37,7 +47,7 @@ struct DampingLevel
 struct ContactTable
 {
     std::vector<ContactClass> classes;
-    std::vector<int> classOfBody, classOfWall;
+    std::vector<int> classOfBody, classOfCorners, classOfWall; ///< without corners those of the body
     std::vector<double> stiffness;  ///< [N/m]
     std::vector<double> damping;    ///< [N s/m]
     std::vector<double> friction;   ///< tan(angle)

@@ -64,7 +64,7 @@ void checkDefinition(const BodyDefinition& body)
         throw DemError("body '" + body.name + "' has no DEM spheres");
     if (!(body.mass > 0) || !(body.principalInertia.minCoeff() > 0))
         throw DemError("body '" + body.name + "': mass and principal inertia must be > 0");
-    for (const SurfaceSphere& s : body.spheres)
+    for (const SurfaceSphere& s : spheresAtWalls(body))
         if (!(s.radius > 0) || !s.centre.allFinite())
             throw DemError("body '" + body.name + "': a DEM sphere has radius " + std::to_string(s.radius));
 }
@@ -72,7 +72,8 @@ void checkDefinition(const BodyDefinition& body)
 int insertBody(LiggghtsModel& model, const BodyDefinition& body, int contactClass)
 {
     checkDefinition(body);
-    const int n = static_cast<int>(body.spheres.size());
+    const std::vector<SurfaceSphere> spheres = spheresAtWalls(body);
+    const int n = static_cast<int>(spheres.size());
     LAMMPS_NS::ParticleToInsertMultisphere particle(&model.instance.lammps(), n);
     particle.groupbit = 1;
     particle.atom_type = model.contacts.typeOf(contactClass, 0);
@@ -84,7 +85,7 @@ int insertBody(LiggghtsModel& model, const BodyDefinition& body, int contactClas
     particle.r_bound_ins = outerRadius(body);
     for (int s = 0; s < n; ++s)
     {
-        const SurfaceSphere& sphere = body.spheres[static_cast<size_t>(s)];
+        const SurfaceSphere& sphere = spheres[static_cast<size_t>(s)];
         particle.radius_ins[s] = sphere.radius;
         particle.volumeweight[s] = 1.0 / n;
         copy(sphere.centre, particle.displace[s]);
@@ -103,6 +104,17 @@ int insertBody(LiggghtsModel& model, const BodyDefinition& body, int contactClas
     double quaternion[4] = {q.w(), q.x(), q.y(), q.z()};
     particle.set_x_v_omega(x, v, omega, quaternion);
     return particle.insert();
+}
+
+/// The body's spheres come behind those there are, its corners last.
+void noteSpheres(LiggghtsModel& model, const BodyDefinition& body, size_t index)
+{
+    const int first = model.firstSphere.back() + static_cast<int>(body.spheres.size()), last = first + static_cast<int>(body.corners.size());
+    model.firstCorner.push_back(first);
+    model.firstSphere.push_back(last);
+    model.classOfSphere.resize(static_cast<size_t>(first), model.contacts.classOfBody[index]);
+    model.classOfSphere.resize(static_cast<size_t>(last), model.contacts.classOfCorners[index]);
+    model.isRetreated.resize(static_cast<size_t>(last), 0);
 }
 
 /// Modify::setup() calls set_arrays() on every fix that is still "just created", which would wipe the link between
@@ -141,7 +153,7 @@ std::vector<Load> totalForces(const LiggghtsModel& model)
 bool LiggghtsModel::touchesWalls(int sphere) const
 {
     const int body = multisphere->belongs_to(sphere) - 1;
-    return body < firstMover && !isGone[static_cast<size_t>(body)];
+    return body < firstMover && !isGone[static_cast<size_t>(body)] && !isRetreated[static_cast<size_t>(sphere)];
 }
 
 BodyArrays bodyArrays(const LiggghtsModel& model)
@@ -189,9 +201,11 @@ void insertBodies(LiggghtsModel& model, const DemSetup& setup)
         for (size_t b = 0; b < bodies.size(); ++b)
         {
             insertBody(model, bodies[b], model.contacts.classOfBody[b]);
-            model.firstSphere.push_back(model.firstSphere.back() + static_cast<int>(setup.bodies[b].spheres.size()));
+            noteSpheres(model, setup.bodies[b], b);
         }
         LAMMPS_NS::Atom& atoms = *dem.atom;
+        for (size_t i = 0; i < model.classOfSphere.size(); ++i)
+            atoms.type[i] = model.contacts.typeOf(model.classOfSphere[i], 0);
         atoms.tag_extend();
         atoms.natoms = atoms.nlocal;
         atoms.nghost = 0;

@@ -87,7 +87,7 @@ int SphereDamping::bodyOf(int sphere) const { return model_.multisphere->belongs
 
 double SphereDamping::damping(int sphere, int otherClass) const
 {
-    const int own = model_.contacts.classOfBody[static_cast<size_t>(bodyOf(sphere))];
+    const int own = model_.classOfSphere[static_cast<size_t>(sphere)];
     return model_.contacts.damping[static_cast<size_t>(own * model_.contacts.size() + otherClass)];
 }
 
@@ -123,7 +123,7 @@ void SphereDamping::addPairs()
             const Vec3 normal = apart.normalized(), point = asVec(atoms.x[j]) + atoms.radius[j] * normal;
             const auto rowA = inverseRoot(a, point - asVec(model_.bodies.xcm[a]), normal);
             const auto rowB = inverseRoot(b, point - asVec(model_.bodies.xcm[b]), normal);
-            const double c = damping(i, model_.contacts.classOfBody[static_cast<size_t>(b)]);
+            const double c = damping(i, model_.classOfSphere[static_cast<size_t>(j)]);
             const double ratio = rowB.squaredNorm() / rowA.squaredNorm();
             near_.push_back({i, j, {a, partnerOf(a, b), std::sqrt(c * (1 + ratio)) * rowA}, {b, partnerOf(b, a), std::sqrt(c * (1 + 1 / ratio)) * rowB}});
         }
@@ -218,9 +218,8 @@ void SphereDamping::setLevels()
                 levels_[static_cast<size_t>(sphere)] = std::max(levels_[static_cast<size_t>(sphere)], level);
     }
     int* const type = model_.instance.lammps().atom->type;
-    for (size_t b = 0; b < partners_.size(); ++b)
-        for (int i = model_.firstSphere[b]; i < model_.firstSphere[b + 1]; ++i)
-            type[i] = model_.contacts.typeOf(model_.contacts.classOfBody[b], levels_[static_cast<size_t>(i)]);
+    for (size_t i = 0; i < levels_.size(); ++i)
+        type[i] = model_.contacts.typeOf(model_.classOfSphere[i], levels_[i]);
 }
 
 } // namespace flotsam

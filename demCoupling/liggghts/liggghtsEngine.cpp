@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/liggghts/liggghtsEngine.hpp"
 
+#include "demCoupling/liggghts/liggghtsCorners.hpp"
 #include "demCoupling/liggghts/liggghtsNear.hpp"
 #include "demCoupling/liggghts/liggghtsTally.hpp"
 #include "demCoupling/liggghts/reach.hpp"
 
 #include <cmath>
+#include <optional>
 
 namespace flotsam
 {
@@ -85,6 +87,7 @@ struct LiggghtsEngine::Implementation
         model.contacts.levels = dampingLevels(setup, model.contacts, timeStep);
         writeScript(model, setup, timeStep);
         insertBodies(model, setup);
+        corners.emplace(model, setup);
         model.tally->sample();
         noteMovers();
         for (int b = 0; b < model.bodies.count; ++b)
@@ -215,6 +218,7 @@ struct LiggghtsEngine::Implementation
     std::vector<Load> loads;            ///< of the bodies alone: over their factors
     std::vector<InertiaFactor> factors, applied;
     LiggghtsModel model;
+    std::optional<CornerSpheres> corners;
     double timeStep = 0;
     long subSteps = 0;
 };
@@ -272,6 +276,7 @@ void LiggghtsEngine::advance(double duration, double largestStep)
     d.model.tally->finish(duration);
     d.scaleInertia(std::vector<InertiaFactor>(d.factors.size()));
     placeSpheres(d.model);
+    d.corners->look();
     d.model.instance.guarded([&] {
         checkBodies(d.model, d.setup);
         d.checkMotion();

@@ -14,7 +14,7 @@ namespace flotsam
 namespace
 {
 
-const char *const groupName = "gone", *const moverGroup = "movers";
+const char *const groupName = "gone", *const moverGroup = "movers", *const cornerGroup = "corners";
 constexpr int everything = 1; // bit of LIGGGHTS' group "all"
 
 /// Numbers of a Halton sequence, 0..1: evenly spread, however many are taken.
@@ -42,7 +42,10 @@ void park(LiggghtsModel& model, int body)
     exit = {Vec3::Map(model.bodies.xcm[body]), Eigen::Quaterniond(q[0], q[1], q[2], q[3])};
     setPose(model, body, {parkingPlace(model.parking, body), exit.orientation});
     for (int i = model.firstSphere[static_cast<size_t>(body)]; i < model.firstSphere[static_cast<size_t>(body) + 1]; ++i)
+    {
         forgetWallContacts(model, i);
+        model.isRetreated[static_cast<size_t>(i)] = 0;
+    }
 }
 
 } // namespace
@@ -62,13 +65,16 @@ std::vector<BodyDefinition> placedAtStart(const DemSetup& setup)
 
 void excludePairs(LiggghtsModel& model)
 {
-    for (const char* name : {groupName, moverGroup})
+    const auto exclude = [&](const std::string& a, const std::string& b) { model.instance.command("neigh_modify exclude group " + a + " " + b); };
+    for (const std::string name : {groupName, moverGroup, cornerGroup})
     {
-        model.instance.command(std::string("group ") + name + " id 0"); // of no sphere: they count from 1
-        model.instance.command(std::string("neigh_modify exclude group ") + groupName + " " + name);
+        model.instance.command("group " + name + " id 0"); // of no sphere: they count from 1
+        exclude(groupName, name);
     }
-    model.instance.command(std::string("neigh_modify exclude group ") + groupName + " all");
-    model.instance.command(std::string("neigh_modify exclude group ") + moverGroup + " " + moverGroup);
+    exclude(groupName, "all");
+    exclude(moverGroup, moverGroup);
+    exclude(cornerGroup, "all");
+    exclude(cornerGroup, moverGroup);
 }
 
 void setGone(LiggghtsModel& model, const std::vector<char>& isGone)
@@ -95,11 +101,14 @@ void setGone(LiggghtsModel& model, const std::vector<char>& isGone)
 void markGone(LiggghtsModel& model, const std::vector<char>& isGone)
 {
     const LAMMPS_NS::LAMMPS& dem = model.instance.lammps();
-    const int gone = dem.group->bitmask[dem.group->find(groupName)], mover = dem.group->bitmask[dem.group->find(moverGroup)];
+    const auto bitOf = [&](const char* name) { return dem.group->bitmask[dem.group->find(name)]; };
+    const int gone = bitOf(groupName), mover = bitOf(moverGroup), corner = bitOf(cornerGroup);
     for (size_t b = 0; b < isGone.size(); ++b)
     {
         const int bit = isGone[b] ? gone : static_cast<int>(b) < model.firstMover ? everything : mover;
-        std::fill(dem.atom->mask + model.firstSphere[b], dem.atom->mask + model.firstSphere[b + 1], bit);
+        std::fill(dem.atom->mask + model.firstSphere[b], dem.atom->mask + model.firstCorner[b], bit);
+        for (int i = model.firstCorner[b]; i < model.firstSphere[b + 1]; ++i)
+            dem.atom->mask[i] = isGone[b] ? gone : model.isRetreated[static_cast<size_t>(i)] ? corner : corner | everything;
     }
     model.isGone = isGone;
 }

@@ -50,7 +50,7 @@ NearSpheres::NearSpheres(LiggghtsModel& model, const DemSetup& setup)
     : model_(model), extents_(setup.bodies.size(), Vec3::Zero()), reach_(setup.bodies.size())
 {
     for (size_t b = 0; b < setup.bodies.size(); ++b)
-        for (const SurfaceSphere& s : setup.bodies[b].spheres)
+        for (const SurfaceSphere& s : spheresAtWalls(setup.bodies[b]))
         {
             extents_[b] = extents_[b].cwiseMax(s.centre.cwiseAbs());
             bodies_.push_back(b);

@@ -66,6 +66,9 @@ struct LiggghtsModel
     int firstMover = 0;                 ///< bodies from this one on move as prescribed, and touch the others alone
     bool touchesWalls(int sphere) const;
     std::vector<int> firstSphere;       ///< per body, and the total: sphere of index s has LIGGGHTS tag s+1
+    std::vector<int> firstCorner;       ///< per body, among its spheres: from this one on they touch walls alone
+    std::vector<int> classOfSphere;     ///< in `contacts`
+    std::vector<char> isRetreated;      ///< per sphere: a corner that touches nothing, see CornerSpheres
     ContactTable contacts;
 };
 

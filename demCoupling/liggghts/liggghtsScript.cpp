@@ -33,7 +33,7 @@ Box holdingEverything(const DemSetup& setup)
     const double margin = 2 * largestRadius(setup) + setup.skin;
     Box box {setup.box[0], setup.box[1]};
     for (const BodyDefinition& body : setup.bodies)
-        for (const SurfaceSphere& s : body.spheres)
+        for (const SurfaceSphere& s : spheresAtWalls(body))
             include(box, body.pose.position + body.pose.orientation * s.centre, margin);
     for (const WallDefinition& wall : setup.walls)
         for (const Vec3& point : wall.surface.points)

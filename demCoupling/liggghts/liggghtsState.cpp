@@ -44,6 +44,14 @@ void writeBodies(LiggghtsModel& model, const double* data)
     markGone(model, isGone);
 }
 
+/// Of all corners.
+void readRetreated(LiggghtsModel& model, const double* data)
+{
+    for (size_t b = 0; b < model.firstCorner.size(); ++b)
+        for (int i = model.firstCorner[b]; i < model.firstSphere[b + 1]; ++i)
+            model.isRetreated[static_cast<size_t>(i)] = *data++ != 0;
+}
+
 } // namespace
 
 DemState saveState(const LiggghtsModel& model)
@@ -69,6 +77,8 @@ DemState saveState(const LiggghtsModel& model)
         data.insert(data.end(), load.force.data(), load.force.data() + 3);
         data.insert(data.end(), load.moment.data(), load.moment.data() + 3);
     }
+    for (size_t b = 0; b < model.firstCorner.size(); ++b)
+        data.insert(data.end(), model.isRetreated.begin() + model.firstCorner[b], model.isRetreated.begin() + model.firstSphere[b + 1]);
     appendHistories(model, data);
     return state;
 }
@@ -78,10 +88,14 @@ void restoreState(LiggghtsModel& model, const DemState& state)
     const std::vector<double>& data = state.data;
     const size_t bodyEnd = headerLength + static_cast<size_t>(model.bodies.count) * bodyLength;
     const size_t wallEnd = bodyEnd + model.walls.size() * wallLength;
-    if (data.size() < wallEnd || data[0] != formatNumber || data[1] != model.bodies.count
+    size_t cornerEnd = wallEnd;
+    for (size_t b = 0; b < model.firstCorner.size(); ++b)
+        cornerEnd += static_cast<size_t>(model.firstSphere[b + 1] - model.firstCorner[b]);
+    if (data.size() < cornerEnd || data[0] != formatNumber || data[1] != model.bodies.count
         || data[2] != static_cast<double>(model.walls.size()) || data[3] != model.firstSphere.back())
-        throw DemError("DEM state: it belongs to another case (number of bodies, walls or DEM spheres differs)");
+        throw DemError("DEM state: it belongs to another case (number of bodies, walls or DEM spheres differs), or was written before boxes had spheres in their corners");
 
+    readRetreated(model, data.data() + wallEnd);
     writeBodies(model, data.data() + headerLength);
     placeSpheres(model);
     rebuildNeighbours(model);
@@ -90,7 +104,7 @@ void restoreState(LiggghtsModel& model, const DemState& state)
         const double* load = data.data() + bodyEnd + w * wallLength;
         model.tally->wallsNow()[w] = {Vec3(load[0], load[1], load[2]), Vec3(load[3], load[4], load[5])};
     }
-    if (readHistories(model, data, wallEnd) != data.size())
+    if (readHistories(model, data, cornerEnd) != data.size())
         throw DemError("DEM state: more data than this case needs");
 }
 

@@ -50,7 +50,10 @@ double largestTurn(const BodyState& state, const Load& load, double leastInertia
 TriangleBoxes::TriangleBoxes(const TriSurface& surface)
 {
     for (const std::array<int, 3>& t : surface.triangles)
+    {
         boxes_.push_back(boxOf(surface, t));
+        boxes_.back().triangle = static_cast<int>(boxes_.size()) - 1;
+    }
     tree_.reserve(2 * boxes_.size() + 1);
     tree_.push_back({{}, 0, static_cast<int>(boxes_.size()), -1});
     grow(0);
@@ -100,7 +103,10 @@ ReachCheck::ReachCheck(const std::vector<BodyDefinition>& bodies, const std::vec
     : bodies_(bodies), walls_(walls), firstMover_(firstMover), moving_(bodies.size())
 {
     for (size_t b = 0; b < bodies.size(); ++b)
+    {
         moving_[b].spheres.resize(bodies[b].spheres.size());
+        moving_[b].corners.resize(bodies[b].corners.size());
+    }
     for (WallDefinition& wall : walls_)
     {
         triangles_.emplace_back(wall.surface);
@@ -121,15 +127,17 @@ void ReachCheck::move(size_t body, const BodyState& state, const Load& load, boo
     m.lower.setConstant(1e300);
     m.upper.setConstant(-1e300);
     const Eigen::Matrix3d rotation = state.pose.orientation.toRotationMatrix();
-    for (size_t s = 0; s < m.spheres.size(); ++s)
+    const auto place = [&](const SurfaceSphere& local, SurfaceSphere& sphere)
     {
-        const SurfaceSphere& local = definition.spheres[s];
-        SurfaceSphere& sphere = m.spheres[s];
         sphere.centre = state.pose.position + rotation * local.centre;
         sphere.radius = local.radius + shift + std::min(turn, 2.0) * local.centre.norm(); // at most the diameter
         m.lower = m.lower.cwiseMin(sphere.centre - Vec3::Constant(sphere.radius));
         m.upper = m.upper.cwiseMax(sphere.centre + Vec3::Constant(sphere.radius));
-    }
+    };
+    for (size_t s = 0; s < m.spheres.size(); ++s)
+        place(definition.spheres[s], m.spheres[s]);
+    for (size_t s = 0; s < m.corners.size(); ++s)
+        place(definition.corners[s], m.corners[s]);
 }
 
 bool ReachCheck::canTouch(const Moving& a, const Moving& b) const
@@ -150,19 +158,21 @@ bool ReachCheck::canTouch(const Moving& a, const Moving& b) const
     return false;
 }
 
+bool ReachCheck::anySphere(const Moving& a, const std::function<bool(const SurfaceSphere&)>& test)
+{
+    return std::any_of(a.spheres.begin(), a.spheres.end(), test) || std::any_of(a.corners.begin(), a.corners.end(), test);
+}
+
 bool ReachCheck::canTouch(const Moving& a, size_t index) const
 {
     const WallDefinition& wall = walls_[index];
     if (wall.kind == WallDefinition::Kind::Plane)
     {
         const Vec3 normal = wall.normal.normalized();
-        for (const SurfaceSphere& s : a.spheres)
-            if (std::abs(normal.dot(s.centre - wall.point)) <= s.radius)
-                return true;
-        return false;
+        return anySphere(a, [&](const SurfaceSphere& s) { return std::abs(normal.dot(s.centre - wall.point)) <= s.radius; });
     }
     return triangles_[index].any({a.lower, a.upper}, [&](const TriangleBoxes::Box& box)
-        { return std::any_of(a.spheres.begin(), a.spheres.end(), [&](const SurfaceSphere& s) { return meets(s, box); }); });
+        { return anySphere(a, [&](const SurfaceSphere& s) { return meets(s, box); }); });
 }
 
 bool ReachCheck::isFree(const std::vector<BodyState>& states, const std::vector<Load>& loads,

@@ -13,7 +13,7 @@ namespace flotsam
 class TriangleBoxes
 {
 public:
-    struct Box { Vec3 lower = Vec3::Zero(), upper = Vec3::Zero(); };
+    struct Box { Vec3 lower = Vec3::Zero(), upper = Vec3::Zero(); int triangle = -1; };
     explicit TriangleBoxes(const TriSurface& surface);
     /// Whether `test` holds for any triangle whose box meets the given one.
     bool any(const Box& near, const std::function<bool(const Box&)>& test) const;
@@ -40,9 +40,10 @@ public:
 private:
     struct Moving
     {
-        std::vector<SurfaceSphere> spheres; ///< in space, radii grown by how far the body can move
+        std::vector<SurfaceSphere> spheres, corners; ///< in space, radii grown by how far the body can move
         Vec3 lower, upper;
     };
+    static bool anySphere(const Moving& a, const std::function<bool(const SurfaceSphere&)>& test);
     void move(size_t body, const BodyState& state, const Load& load, bool isHeld, double duration);
     bool canTouch(const Moving& a, const Moving& b) const;
     bool canTouch(const Moving& a, size_t wall) const;

@@ -92,6 +92,11 @@ inline std::vector<SurfaceSphere> surfaceSpheres(const Shape& shape, double radi
 /// what one touches. Of other shapes one layer of surfaceSpheres() where that has all that the section needs, else all of them.
 std::vector<SurfaceSphere> sectionSpheres(const Shape& shape, const Vec3& point, const Vec3& normal, double radius, double spacing, double rowSpacing);
 
+/// Spheres of this radius in the corners of a box, which touch its three faces there; of other shapes none.
+std::vector<SurfaceSphere> cornerSpheres(const Shape& shape, double radius);
+/// The same in the plane through `point` with unit normal `normal`, where a side of the box is along it, else none.
+std::vector<SurfaceSphere> sectionCorners(const Shape& shape, const Vec3& point, const Vec3& normal, double radius);
+
 std::shared_ptr<const Shape> makeBox(const Vec3& centre, const Vec3& size);
 std::shared_ptr<const Shape> makeSphere(const Vec3& centre, double radius);
 std::shared_ptr<const Shape> makeCylinder(const Vec3& end1, const Vec3& end2, double radius);

@@ -63,6 +63,33 @@ TEST_CASE("classes: one per material, mass and face; shared when there are very 
     CHECK_THROWS_AS(makeContactTable(setup), DemError);
 }
 
+TEST_CASE("corners: as stiff as their radius is smaller, damped for the same restitution; flat landings count them in")
+{
+    BodyDefinition body = debris(Vec3::Zero());
+    const double r = 0.25 * body.spheres.front().radius;
+    body.corners = cornerSpheres(*makeBox(Vec3::Zero(), {0.2, 0.02, 0.02}), r);
+    for (const bool isFlat : {false, true})
+    {
+        ContactLaw law;
+        law.flatRestitution = isFlat;
+        const ContactTable table = makeContactTable(scene({body}, {plane(Vec3::Zero(), Vec3::UnitZ())}, law));
+        const int n = table.size(), own = table.classOfBody[0], corner = table.classOfCorners[0], wall = table.classOfWall[0];
+        REQUIRE(n == 3);
+        REQUIRE(corner != own);
+        const auto of = [&](const std::vector<double>& values, int a) { return values[static_cast<size_t>(a * n + wall)]; };
+        const double k = of(table.stiffness, own), kCorner = of(table.stiffness, corner), c = of(table.damping, own), cCorner = of(table.damping, corner);
+        CHECK(k == near(law.stiffness / 40, 1e-14));
+        CHECK(kCorner == near(4 * k, 1e-6));
+        const double ratio = dampingRatioFor(law.restitution);
+        const double together = isFlat ? (40 * c + 4 * cCorner) / std::sqrt((40 * k + 4 * kCorner) * body.mass) : cCorner / std::sqrt(kCorner * body.mass);
+        CHECK(together == near(2 * ratio, 1e-6));
+        if (isFlat)
+            CHECK(cCorner / kCorner == near(c / k, 1e-6));
+        else
+            CHECK(c == near(2 * ratio * std::sqrt(k * body.mass), 1e-12));
+    }
+}
+
 TEST_CASE("dashpots of many spheres: at most the velocity there is, and never much less")
 {
     for (const double z : {0.01, 0.5, 1.0})

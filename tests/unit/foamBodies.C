@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace flotsam;
@@ -226,6 +227,29 @@ TEST_CASE("bodies feel structures that move by their spheres, behind the walls")
     CHECK(disc[0].radius == 0.2);
     CHECK((disc[0].centre - Vec3(0, 0, 0.05)).norm() < 1e-14);
     CHECK(has(plane.message("structures { gate { shape { type sphere; radius 0.1; } position (1.5 0.5 0); motion { type linear; velocity (1 0 0); } } }" + log), "contact off"));
+}
+
+TEST_CASE("boxes have corners of a sixteenth of their thickness, where their other spheres are larger")
+{
+    BodiesScene s;
+    const auto read = [&](const std::string& shape, const std::string& spheres) { return s.read(bodies("shape { type " + shape + " } density 500; position (0.5 0.5 0.3); " + spheres)).bodies[0]; };
+    const std::string box = "box; size (0.3 0.08 0.2);";
+    const BodyDefinition body = read(box, "");
+    REQUIRE(body.corners.size() == 8);
+    for (const SurfaceSphere& corner : body.corners)
+    {
+        CHECK(corner.radius == near(0.005, 1e-14));
+        Vec3 inside = corner.centre.cwiseAbs();     // along the axes of inertia
+        std::sort(inside.data(), inside.data() + 3);
+        CHECK((inside - Vec3(0.035, 0.095, 0.145)).norm() < 1e-13);
+    }
+    CHECK(read(box, "spheres { radius 0.01; }").corners.size() == 8);
+    CHECK(read(box, "spheres { radius 0.005; }").corners.empty());
+    CHECK(read("cylinder; end1 (0 0 0); end2 (0.3 0 0); radius 0.04;", "").corners.empty());
+    BodiesScene plane(false);
+    const BodyDefinition flat = plane.read(bodies("shape { type box; size (0.2 0.08 0.1); } density 500; position (0.5 0.5 0); orientation { axis (0 0 1); angleDeg 20; }")).bodies[0];
+    REQUIRE(flat.corners.size() == 4);
+    for (const SurfaceSphere& corner : flat.corners) CHECK(corner.centre.cwiseAbs().sum() == near(0.095 + 0.035, 1e-13));
 }
 
 TEST_CASE("2D: a body reaches through the mesh, moved to its mid-plane")

@@ -157,6 +157,36 @@ TEST_CASE("section: one layer at the rim, whatever the extent across, wherever t
     CHECK(inner.size() == 9);           // without the four under the disc's surface, at x = +-0.025
 }
 
+TEST_CASE("corners of boxes: in the shape's frame, each in touch with the faces that meet there; other shapes have none")
+{
+    constexpr double r = 0.01;
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.4, Vec3::UnitZ()));
+    const auto box = makePlaced(makeBox(Vec3(0.1, 0, 0), {0.3, 0.1, 0.2}), turn, {1, 2, 0});
+    const auto corners = cornerSpheres(*box, r);
+    CHECK(corners.size() == 8);
+    checkTouching(*box, corners);
+    for (const SurfaceSphere& s : corners)
+        for (int d = 0; d < 3; ++d) // at its depth below three faces
+        {
+            const Vec3 way = 1.01 * r * (turn * Vec3::Unit(d));
+            CHECK(std::max(box->distance(s.centre + way), box->distance(s.centre - way)) == near(0.01 * r, 1e-6));
+        }
+    for (const SurfaceSphere& a : corners)
+        for (const SurfaceSphere& b : corners)
+            if (&a != &b) CHECK((a.centre - b.centre).norm() > 0.1 - 2.01 * r);
+    const Vec3 point(0, 0, 0.05);
+    const auto section = sectionCorners(*box, point, Vec3::UnitZ(), r);
+    CHECK(section.size() == 4);
+    for (const SurfaceSphere& s : section)
+    {
+        CHECK(s.centre.z() == near(0.05, 1e-14));
+        CHECK(box->distance(s.centre) == near(-r, 1e-12));
+    }
+    CHECK(sectionCorners(*box, point, Vec3(0.6, 0, 0.8), r).empty());
+    CHECK(cornerSpheres(*makeSphere(Vec3::Zero(), 1), r).empty());
+    CHECK(cornerSpheres(*makeUnion({makeBox(Vec3::Zero(), Vec3::Ones()), makeSphere(Vec3::Zero(), 0.6)}), r).empty());
+}
+
 TEST_CASE("STL: spheres touch from inside, cover the surface, and are the same at every call")
 {
     const std::string file = "surfaceSpheresTest." + std::to_string(getpid()) + ".stl";

@@ -12,12 +12,13 @@ LENGTH, WIDTH, DENSITY, RADIUS = 0.05, 0.01, 590.0, 0.0025      # spheres touch 
 STIFFNESS, RESTITUTION, GRAVITY, END = 4e4, 0.9, 9.81, 0.08
 MASS = DENSITY * LENGTH * WIDTH**2
 INERTIA = MASS * (LENGTH**2 + WIDTH**2) / 12    # about y: of a bar that lies along x
-ON_FACE = 20                                    # spheres that touch in a flat landing
+ON_FACE = 20                                    # spheres that touch in a flat landing, without the corners
+CORNER = WIDTH / 16                             # radius of the spheres in the corners
 DROPS = [0.02 + 1e-4 * i for i in range(9)]
 
-title = """Nine bars of 0.05 x 0.01 x 0.01 m (590 kg/m3, 40 spheres) dropped from 0.02 to 0.0208 m on a wall without friction: flat, on a long edge, on the corner below
+title = """Nine bars of 0.05 x 0.01 x 0.01 m (590 kg/m3, 40 spheres, 8 in the corners) dropped from 0.02 to 0.0208 m on a wall without friction: flat, on a long edge, on the corner below
 the centre, on one end, tilted by 20 degrees; spring 4e4 N/m, restitution 0.9, gas of 1e-4 kg/m3. Exact: a rigid bar on the springs and dashpots of those
-spheres that touch, each a 20th of the spring and of the dashpot times the root of 20 (docs/contact.md), integrated with a step of 1e-6 s. Speeds after the first landing,
+spheres that touch, each a 20th of the spring and of the dashpot times the root of 20, corners 4 and 2 times that (docs/contact.md), integrated with a step of 1e-6 s. Speeds after the first landing,
 over that of the landing: mean and scatter of the nine, each of which lands at another instant of a sub-step."""
 
 runs = [Run("flotsamFoam", 1, name, quick=name == "flat") for name in ("flat", "edge", "corner", "end")]
@@ -30,7 +31,12 @@ def resolution(_run):
 def _centres():
     x = np.linspace(-1, 1, 10) * (LENGTH / 2 - RADIUS)
     y = np.array([-1, 1]) * (WIDTH / 2 - RADIUS)
-    return np.array([(a, b, c) for a in x for b in y for c in y])
+    corner = np.array([LENGTH, WIDTH, WIDTH]) / 2 - CORNER
+    return np.array([(a, b, c) for a in x for b in y for c in y] + [corner * (a, b, c) for a in (-1, 1) for b in (-1, 1) for c in (-1, 1)])
+
+
+RADII = np.array([RADIUS] * 2 * ON_FACE + [CORNER] * 8)
+STIFFENING = RADIUS / RADII
 
 
 def _turn(attitude):
@@ -52,7 +58,7 @@ def _turned(attitude):
 
 def files(run, _folder):
     (x, y, z), angle = _turn(run.variant)
-    lowest = _turned(run.variant)[:, 2].min() - RADIUS
+    lowest = (_turned(run.variant)[:, 2] - RADII).min()
     places = [(a, b) for a in (-0.063, 0.001, 0.064) for b in (-0.04, 0.002, 0.042)]
     poses = " ".join(f"{{ position ({a:g} {b:g} {drop - lowest:.12g}); }}" for drop, (a, b) in zip(DROPS, places))
     text = f"""contact {{ default {{ stiffness {STIFFNESS:g}; restitution {RESTITUTION:g}; frictionAngle 0; }} }}
@@ -82,8 +88,8 @@ def _rate(state, spheres, spring, dashpot):
     """Height of the centre, its velocity, angle and angular velocity about y: their rates, and whether anything touches."""
     z, v, angle, spin = state
     x = spheres[:, 0] * np.cos(angle) + spheres[:, 2] * np.sin(angle)
-    overlap = RADIUS - (z - spheres[:, 0] * np.sin(angle) + spheres[:, 2] * np.cos(angle))
-    force = np.where(overlap > 0, np.maximum(0, spring * overlap - dashpot * (v - spin * x)), 0)
+    overlap = RADII - (z - spheres[:, 0] * np.sin(angle) + spheres[:, 2] * np.cos(angle))
+    force = np.where(overlap > 0, np.maximum(0, STIFFENING * spring * overlap - np.sqrt(STIFFENING) * dashpot * (v - spin * x)), 0)
     return np.array([v, -GRAVITY + force.sum() / MASS, spin, -(x * force).sum() / INERTIA]), (overlap > 0).any()
 
 
@@ -93,7 +99,7 @@ def _exact(attitude, drop):
     dashpot = 2 * dampingRatio(RESTITUTION) * np.sqrt(STIFFNESS * MASS) / np.sqrt(ON_FACE)
     spheres, step = _turned(attitude), 1e-6
     t = np.sqrt(2 * drop / GRAVITY)
-    state, touches = np.array([RADIUS - spheres[:, 2].min(), -GRAVITY * t, 0.0, 0.0]), True
+    state, touches = np.array([(RADII - spheres[:, 2]).max(), -GRAVITY * t, 0.0, 0.0]), True
     while touches:
         a, _ = _rate(state, spheres, spring, dashpot)
         b, _ = _rate(state + step / 2 * a, spheres, spring, dashpot)
