@@ -195,8 +195,8 @@ void CoverBuilder::cutFixedSolids(const std::vector<Solid>& solids)
     c.isActiveNode.assign(mesh_.nNodes, 1);
     touchedNodes_.clear();
     touchedElements_.clear();
-    for (int e : thinElements_) thinElement_[e] = ThinElement::None;
-    thinElements_.clear();
+    for (int e : sharpElements_) sharpElement_[e] = SharpElement::None;
+    sharpElements_.clear();
     isNearFixedCut_.assign(mesh_.nNodes, 0);
     face_.assign(mesh_.nNodes, 0);
     ++mark_;
@@ -254,7 +254,7 @@ void CoverBuilder::restoreFixedCover()
 const Cover& CoverBuilder::cutMovingSolids(const std::vector<Solid>& solids)
 {
     restoreFixedCover();
-    findThinParts(solids);
+    findSharpParts(solids);
     ++mark_;
     for (std::size_t s = 0; s < solids.size(); ++s)
         if (!solids[s].isCutOnce())
@@ -262,7 +262,7 @@ const Cover& CoverBuilder::cutMovingSolids(const std::vector<Solid>& solids)
             applySamples(cover_, solids, static_cast<int>(s), samples_[s]);
             addElementsOf(cover_, solids, static_cast<int>(s), samples_[s]);
         }
-    addThinElements(cover_, solids);
+    addSharpElements(cover_, solids);
     addClosedFaces();
     copyFixedCuts();
     nodeFaces_.clear();

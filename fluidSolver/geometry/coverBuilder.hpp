@@ -110,25 +110,25 @@ private:
         double thickness;
     };
 
-    /// A thin body has a part in an element.
-    struct ThinPart { int element, solid; };
+    /// A sharp solid has a part in an element.
+    struct SharpPart { int element, solid; };
 
-    /// Of elements with parts of thin bodies or nodes nearest to one. Alone: one thin body's; Apart: of several solids; Joined: with several others than thin bodies, which are cut as one.
-    enum class ThinElement : char { None, Alone, Apart, Joined };
+    /// Of elements with parts of sharp solids or nodes nearest to one. Alone: one sharp solid's; Apart: of several solids; Joined: with several others than sharp ones, which are cut as one.
+    enum class SharpElement : char { None, Alone, Apart, Joined };
 
-    /// Solids beside thin bodies in an element.
+    /// Solids beside sharp ones in an element.
     struct Others { int solid[5], n = 0; };
 
     std::shared_ptr<const PlaneFaces> facesOfRound(const std::shared_ptr<const Shape>& shape);
     double thicknessOfPolyhedron(const std::shared_ptr<const Shape>& shape, const Vec3& across);
     double partThickness(const Solid& solid, const std::shared_ptr<const Shape>& part);
     double thickness(const Solid& solid);
-    void findThinParts(const std::vector<Solid>& solids);
-    const ThinPart* partsIn(int element) const;
-    ThinElement kindOf(const Cover& cover, const std::vector<Solid>& solids, int element) const;
-    void addThinElements(const Cover& cover, const std::vector<Solid>& solids);
+    void findSharpParts(const std::vector<Solid>& solids);
+    const SharpPart* partsIn(int element) const;
+    SharpElement kindOf(const Cover& cover, const std::vector<Solid>& solids, int element) const;
+    void addSharpElements(const Cover& cover, const std::vector<Solid>& solids);
     bool hasPart(const Solid& solid, int element);
-    bool isAmongThin(int element) const { return !thinElements_.empty() && thinElement_[element] != ThinElement::None; }
+    bool isAmongSharp(int element) const { return !sharpElements_.empty() && sharpElement_[element] != SharpElement::None; }
     Others othersIn(const Cover& cover, const std::vector<Solid>& solids, int element) const;
     template <int dim> void facesOf(const Others& others, const std::vector<Solid>& solids, int element, CuttingFaces& faces) const;
     template <int dim> void cutElementOfSolids(Cover& cover, const std::vector<Solid>& solids, int element) const;
@@ -240,9 +240,9 @@ private:
     std::vector<RoundShape> roundShapes_;
     std::vector<Polyhedron> polyhedra_;
     double longest_ = 0;                // element length of the whole mesh
-    std::vector<ThinPart> thinParts_;   // by element
-    std::vector<int> thinElements_;     // with thin parts or nodes nearest to thin bodies
-    std::vector<ThinElement> thinElement_;  // nElements, empty while there are none
+    std::vector<SharpPart> sharpParts_;   // by element
+    std::vector<int> sharpElements_;    // with sharp parts or nodes nearest to sharp solids
+    std::vector<SharpElement> sharpElement_;  // nElements, empty while there are none
     std::vector<int> coveredVolumeOf_;  // nElements, empty at first: position in cover_.coveredVolumes, -1 outside of findCovered()
     std::vector<int> sharedNodes_;      // of elements with nodes of several solids
     std::vector<char> isSharedNode_;    // nNodes

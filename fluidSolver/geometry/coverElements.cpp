@@ -32,8 +32,8 @@ SimplexCut<dim> wholeSimplex(double volume)
 
 void CoverBuilder::cutElement(Cover& cover, const std::vector<Solid>& solids, int element) const
 {
-    const bool isPlain = isAmongThin(element) && thinElement_[element] == ThinElement::Alone && !solids[cover.nearestSolid[nodesOf(element)[0]]].isThin;
-    if (isAmongThin(element) && !isPlain) return mesh_.dim == 2 ? cutElementOfSolids<2>(cover, solids, element) : cutElementOfSolids<3>(cover, solids, element);
+    const bool isPlain = isAmongSharp(element) && sharpElement_[element] == SharpElement::Alone && !solids[cover.nearestSolid[nodesOf(element)[0]]].isThin;
+    if (isAmongSharp(element) && !isPlain) return mesh_.dim == 2 ? cutElementOfSolids<2>(cover, solids, element) : cutElementOfSolids<3>(cover, solids, element);
     double distance[4];
     int nSolid = 0;
     for (int a = 0; a <= mesh_.dim; ++a)
@@ -85,7 +85,7 @@ bool CoverBuilder::endsAtEdge(const Cover& cover, int element, int corner) const
     }
     const int* sides = graph_.faces[f].element;
     const int beyond = sides[sides[0] == element];
-    return isMixed && (isAmongThin(beyond) ? thinElement_[beyond] != ThinElement::Joined : isAtEdgeOfOne(cover, beyond));
+    return isMixed && (isAmongSharp(beyond) ? sharpElement_[beyond] != SharpElement::Joined : isAtEdgeOfOne(cover, beyond));
 }
 
 bool CoverBuilder::endsAtEdge(const Cover& cover, int element) const

@@ -65,7 +65,7 @@ void CoverBuilder::findSharedNodes(const Cover& cover)
 
 bool CoverBuilder::isShared(const Cover& cover, int solid, int element) const
 {
-    if (isAmongThin(element) && thinElement_[element] != ThinElement::Alone) return true;
+    if (isAmongSharp(element) && sharpElement_[element] != SharpElement::Alone) return true;
     const int* nodes = nodesOf(element);
     return std::any_of(nodes, nodes + mesh_.dim + 1, [&](int i) { return cover.nearestSolid[i] != solid; });
 }
