@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Which triangulated surfaces are convex polyhedra of few faces: containers, wedges, sills and weirs drawn in a CAD program. Cut by their faces they keep edges and volume. Sizes of polyhedra.
 #include "geometry/planeFaces.hpp"
+#include "geometry/triSurface.hpp"
 
 #include <Eigen/LU>
 
@@ -23,24 +24,6 @@ struct Face
     double height(const Vec3& x) const { return normal.dot(x - point); }
 };
 
-struct Facet
-{
-    std::array<Vec3, 3> corners;
-    Vec3 area;                      // vector, twice
-};
-
-std::vector<Facet> largestFirst(const TriSurface& surface)
-{
-    std::vector<Facet> facets;
-    for (const auto& t : surface.triangles)
-    {
-        const Vec3 &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
-        facets.push_back({{a, b, c}, (b - a).cross(c - a)});
-    }
-    std::stable_sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) { return a.area.squaredNorm() > b.area.squaredNorm(); });
-    return facets;
-}
-
 /// Empty: more than maxFaces.
 std::vector<Face> joinFacets(const TriSurface& surface, double tolerance)
 {
@@ -48,7 +31,6 @@ std::vector<Face> joinFacets(const TriSurface& surface, double tolerance)
     for (const Facet& facet : largestFirst(surface))
     {
         const double twiceArea = facet.area.norm();
-        if (twiceArea == 0) continue;
         const auto contains = [&](const Face& face)
         {
             return std::all_of(facet.corners.begin(), facet.corners.end(), [&](const Vec3& x) { return std::abs(face.height(x)) < tolerance; });
@@ -69,12 +51,7 @@ std::vector<Face> joinFacets(const TriSurface& surface, double tolerance)
 
 std::shared_ptr<const PlaneFaces> convexFaces(const TriSurface& surface)
 {
-    Vec3 lower = surface.points[0], upper = lower;
-    for (const Vec3& x : surface.points)
-    {
-        lower = lower.cwiseMin(x);
-        upper = upper.cwiseMax(x);
-    }
+    const auto [lower, upper] = boundsOf(surface);
     const double tolerance = planeTolerance * (upper - lower).norm();
     const auto result = std::make_shared<PlaneFaces>();
     for (const Face& face : joinFacets(surface, tolerance))

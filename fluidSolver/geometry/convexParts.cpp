@@ -60,12 +60,7 @@ class Partition
 public:
     explicit Partition(const TriSurface& surface)
     {
-        Vec3 lower = surface.points[0], upper = lower;
-        for (const Vec3& x : surface.points)
-        {
-            lower = lower.cwiseMin(x);
-            upper = upper.cwiseMax(x);
-        }
+        const auto [lower, upper] = boundsOf(surface);
         centre_ = 0.5 * (lower + upper);
         size_ = (upper - lower).norm();
         tolerance_ = planeTolerance * size_;
@@ -80,32 +75,22 @@ public:
     }
 
 private:
-    /// Largest triangles first: their planes are the most exact.
     void readFaces(const TriSurface& surface)
     {
-        struct Facet { std::array<Vec3, 3> x; Vec3 area; };
-        std::vector<Facet> facets;
-        for (const auto& t : surface.triangles)
+        for (const Facet& facet : largestFirst(surface))
         {
-            const Vec3 &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
-            facets.push_back({{a, b, c}, (b - a).cross(c - a)});
-        }
-        std::stable_sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) { return a.area.squaredNorm() > b.area.squaredNorm(); });
-        for (const Facet& facet : facets)
-        {
-            if (facet.area.isZero(0)) continue;
             const auto holds = [&](const Plane& plane)
             {
-                return std::all_of(facet.x.begin(), facet.x.end(), [&](const Vec3& x) { return std::abs(height(plane, x)) < tolerance_; });
+                return std::all_of(facet.corners.begin(), facet.corners.end(), [&](const Vec3& x) { return std::abs(height(plane, x)) < tolerance_; });
             };
             auto plane = std::find_if(planes_.begin(), planes_.end(), holds);
             if (plane == planes_.end())
             {
                 if (planes_.size() == mostPlanes) throw TooMany();
                 const Vec3 normal = facet.area.normalized();
-                plane = planes_.insert(planes_.end(), Plane{normal, normal.dot(facet.x[0])});
+                plane = planes_.insert(planes_.end(), Plane{normal, normal.dot(facet.corners[0])});
             }
-            faces_.push_back({{facet.x.begin(), facet.x.end()}, static_cast<int>(plane - planes_.begin()), plane->normal.dot(facet.area) > 0});
+            faces_.push_back({{facet.corners.begin(), facet.corners.end()}, static_cast<int>(plane - planes_.begin()), plane->normal.dot(facet.area) > 0});
         }
     }
 
@@ -211,16 +196,7 @@ public:
     }
     int faceDistances(const Vec3& x, double* distances) const override { return faces_->distances(x, distances); }
     bool hasPlaneFaces() const override { return true; }
-    std::array<Vec3, 2> bounds() const override
-    {
-        std::array<Vec3, 2> b{surface_.points[0], surface_.points[0]};
-        for (const Vec3& x : surface_.points)
-        {
-            b[0] = b[0].cwiseMin(x);
-            b[1] = b[1].cwiseMax(x);
-        }
-        return b;
-    }
+    std::array<Vec3, 2> bounds() const override { return boundsOf(surface_); }
     VolumeMoments moments() const override { return enclosedMoments(surface_); }
     TriSurface surface(double) const override { return surface_; }
 

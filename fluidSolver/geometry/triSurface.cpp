@@ -31,6 +31,29 @@ VolumeMoments enclosedMoments(const TriSurface& surface)
     return m;
 }
 
+std::array<Vec3, 2> boundsOf(const TriSurface& surface)
+{
+    std::array<Vec3, 2> bounds{surface.points[0], surface.points[0]};
+    for (const Vec3& x : surface.points)
+    {
+        bounds[0] = bounds[0].cwiseMin(x);
+        bounds[1] = bounds[1].cwiseMax(x);
+    }
+    return bounds;
+}
+
+std::vector<Facet> largestFirst(const TriSurface& surface)
+{
+    std::vector<Facet> facets;
+    for (const auto& t : surface.triangles)
+    {
+        const Vec3 &a = surface.points[t[0]], &b = surface.points[t[1]], &c = surface.points[t[2]];
+        if (const Vec3 area = (b - a).cross(c - a); !area.isZero(0)) facets.push_back({{a, b, c}, area});
+    }
+    std::stable_sort(facets.begin(), facets.end(), [](const Facet& a, const Facet& b) { return a.area.squaredNorm() > b.area.squaredNorm(); });
+    return facets;
+}
+
 double sectionArea(const TriSurface& surface, const Vec3& point, const Vec3& normal)
 {
     double area = 0;

@@ -10,6 +10,17 @@ namespace flotsam
 /// Moments of the enclosed volume by the divergence theorem (sum over tetrahedra to a common point): exact.
 VolumeMoments enclosedMoments(const TriSurface& surface);
 
+/// Axis-aligned box around its points {lower, upper} [m].
+std::array<Vec3, 2> boundsOf(const TriSurface& surface);
+
+/// Triangles with their area [m^2], a vector, twice; the largest first: their planes are the most exact. Those without area are left out.
+struct Facet
+{
+    std::array<Vec3, 3> corners;
+    Vec3 area;
+};
+std::vector<Facet> largestFirst(const TriSurface& surface);
+
 /// Area of the section of the enclosed volume with the plane through `point` with unit normal `normal` [m^2].
 double sectionArea(const TriSurface& surface, const Vec3& point, const Vec3& normal);
 
