@@ -19,6 +19,7 @@ using Plane = PlaneFaces::Plane;
 using Polygon = std::vector<Vec3>;
 
 constexpr std::size_t mostPlanes = 40, mostParts = 32;  // of more the linear cut is cheaper, and likely as good: their surface is a round one
+constexpr std::size_t mostTriangles = 200000;           // each is split by each plane: a second
 constexpr double sameVolume = 1e-5;
 constexpr double smallestFace = 1e-9;                   // twice its area, over the square of the surface's size
 
@@ -60,6 +61,7 @@ class Partition
 public:
     explicit Partition(const TriSurface& surface)
     {
+        if (surface.triangles.size() > mostTriangles) throw TooMany();
         const auto [lower, upper] = boundsOf(surface);
         centre_ = 0.5 * (lower + upper);
         size_ = (upper - lower).norm();

@@ -8,7 +8,7 @@ namespace flotsam
 {
 
 /// Of a closed surface, oriented outwards: at most 32 convex polyhedra of at most maxFaces faces each, whose union is what it encloses, to 1e-5 of the volume. Empty: it has more than 40
-/// plane faces, or needs more parts.
+/// plane faces or 200,000 triangles, or needs more parts.
 std::vector<std::shared_ptr<const Shape>> convexParts(const TriSurface& surface);
 
 } // namespace flotsam
