@@ -143,8 +143,8 @@ void printCaseCheck(const CaseControls& controls, const MeshAdapter& adapter, co
     const bool hasLevel = std::any_of(boundary.begin(), boundary.end(), [](const BoundaryPatch& b) { return b.pressure != BoundaryPatch::Pressure::Natural; });
     if (!hasLevel) line("pressure level", text("none prescribed: in every basin mean in the gas (without gas: of all) pRefValue ", controls.fluid.pRefValue));
     if (scene.thinnestLinearBody > 0 && scene.thinnestLinearBody < counts.hMin)
-        line("warning", text("the thinnest union or STL body (", scene.thinnestLinearBody, " m) is thinner than the smallest elements (", counts.hMin, " m): where no node of the mesh lies inside of it the fluid does not see it,"
-            " and it sinks. Refine around the bodies, to 3 elements if you can, or take boxes, cylinders, capsules or spheres, which float however thin they are"));
+        line("warning", text("the thinnest body with an STL shape of many faces (", scene.thinnestLinearBody, " m) is thinner than the smallest elements (", counts.hMin, " m): where no node of the mesh lies inside of it the fluid does not see it,"
+            " and it sinks. Refine around the bodies, to 3 elements if you can, or take boxes, cylinders, capsules, spheres or unions of these, which float however thin they are"));
     else if (scene.bodies > 0 && scene.thinnestBody < 3*counts.hMin)
         line("warning", text("the thinnest body (", scene.thinnestBody, " m) spans less than 3 of the smallest elements (", counts.hMin, " m): refine around the bodies"));
     printCost(counts, mesh, scene, cost, halo.size());

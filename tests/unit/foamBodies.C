@@ -3,11 +3,13 @@
 #include "demCoupling/foam/structureChecks.H"
 #include "support/bodiesScene.H"
 #include "support/near.hpp"
+#include "support/polyhedra.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 using namespace flotsam;
 
@@ -51,9 +53,23 @@ TEST_CASE("the thinnest body, and the thinnest of those that the cut does not se
     };
     CHECK(thinnest(log) == std::pair(0.04, 0.0));
     CHECK(thinnest("type box; size (0.3 0.03 0.1);") == std::pair(0.03, 0.0));
-    const auto [whole, linear] = thinnest("type union; parts { a { " + log + " } b { type sphere; radius 0.05; } }");
-    CHECK(whole == near(0.04, 1e-14));
-    CHECK(linear == whole);
+    const auto [tree, treeLinear] = thinnest("type union; parts { a { " + log + " } b { type sphere; radius 0.05; } }");
+    CHECK(tree == near(0.04, 1e-14));
+    CHECK(treeLinear == 0);
+    const std::string folder = s.foam.folder() + "/constant/triSurface/";   // round, of a hundred faces
+    if (s.halo.rank() == 0)
+    {
+        std::filesystem::create_directories(folder);
+        writeStl(folder + "log.stl", makeCylinder({0, 0, 0}, {0.3, 0, 0}, 0.05)->surface(0.01));
+    }
+    MPI_Barrier(MPI_COMM_WORLD);
+    const std::string stl = "type stl; file \"log.stl\";";
+    for (const std::string& shape : {stl, "type union; parts { a { " + stl + " } b { type sphere; radius 0.06; } }"})
+    {
+        const auto [whole, linear] = thinnest(shape);
+        CHECK(whole > 0.05);
+        CHECK(linear == whole);
+    }
 }
 
 TEST_CASE("one body: mass, inertia, spheres, pose")
