@@ -30,6 +30,13 @@ struct Face
     bool isAlong;   // its normal is the plane's, not the opposite
 };
 
+/// A part's surface, and the planes of its faces.
+struct Part
+{
+    TriSurface surface;
+    std::shared_ptr<PlaneFaces> faces = std::make_shared<PlaneFaces>();
+};
+
 struct TooMany {};
 
 Plane opposite(const Plane& plane) { return {-plane.normal, -plane.distance}; }
@@ -69,16 +76,18 @@ public:
         readFaces(surface);
     }
 
-    /// Surfaces of the parts.
-    std::vector<TriSurface> parts()
+    std::vector<Part> parts()
     {
         split(faces_, {});
         return std::move(parts_);
     }
 
 private:
+    /// Largest triangles first: their planes tell best which others lie in them. Then each becomes the mean of its triangles' planes.
     void readFaces(const TriSurface& surface)
     {
+        struct Sum { Vec3 area = Vec3::Zero(); double moment = 0; };    // twice the areas, and that times the distances from the origin
+        std::vector<Sum> sums;
         for (const Facet& facet : largestFirst(surface))
         {
             const auto holds = [&](const Plane& plane)
@@ -91,9 +100,14 @@ private:
                 if (planes_.size() == mostPlanes) throw TooMany();
                 const Vec3 normal = facet.area.normalized();
                 plane = planes_.insert(planes_.end(), Plane{normal, normal.dot(facet.corners[0])});
+                sums.emplace_back();
             }
-            faces_.push_back({{facet.corners.begin(), facet.corners.end()}, static_cast<int>(plane - planes_.begin()), plane->normal.dot(facet.area) > 0});
+            const Face& face = faces_.emplace_back(Face{{facet.corners.begin(), facet.corners.end()}, static_cast<int>(plane - planes_.begin()), plane->normal.dot(facet.area) > 0});
+            const Vec3 along = face.isAlong ? facet.area : Vec3(-facet.area);
+            sums[face.plane].area += along;
+            sums[face.plane].moment += along.dot(facet.corners[0] + facet.corners[1] + facet.corners[2]) / 3;
         }
+        for (std::size_t p = 0; p < planes_.size(); ++p) planes_[p] = {sums[p].area.normalized(), sums[p].moment / sums[p].area.norm()};
     }
 
     struct Sides { std::vector<Face> back, front; int nSplit = 0; };
@@ -151,21 +165,23 @@ private:
         go(best->front, opposite(plane), isFrontInside);
     }
 
+    /// Its faces are the planes themselves: the part on the other side of one has the same, to the last bit, so that there is no slit between the two.
     void addPart(const std::vector<Plane>& walls)
     {
-        TriSurface part;
-        int nFaces = 0;
+        Part part;
+        TriSurface& surface = part.surface;
         for (std::size_t f = 0; f < walls.size(); ++f)
         {
             Polygon polygon = largeSquare(walls[f]);
             for (std::size_t g = 0; g < walls.size() && polygon.size() > 2; ++g)
                 if (g != f) polygon = behind(polygon, walls[g]);
             if (polygon.size() < 3 || twiceArea(polygon) < smallestFace * size_ * size_) continue; // the plane touches an edge
-            const int first = static_cast<int>(part.points.size());
-            part.points.insert(part.points.end(), polygon.begin(), polygon.end());
-            for (int k = 2; k < static_cast<int>(polygon.size()); ++k) part.triangles.push_back({first, first + k - 1, first + k});
-            ++nFaces;
+            const int first = static_cast<int>(surface.points.size());
+            surface.points.insert(surface.points.end(), polygon.begin(), polygon.end());
+            for (int k = 2; k < static_cast<int>(polygon.size()); ++k) surface.triangles.push_back({first, first + k - 1, first + k});
+            part.faces->planes.push_back(walls[f]);
         }
+        const std::size_t nFaces = part.faces->planes.size();
         if (nFaces > maxFaces || parts_.size() == mostParts) throw TooMany();
         if (nFaces > 3) parts_.push_back(std::move(part));
     }
@@ -181,14 +197,14 @@ private:
     double size_ = 0, tolerance_ = 0;
     std::vector<Plane> planes_;
     std::vector<Face> faces_;
-    std::vector<TriSurface> parts_;
+    std::vector<Part> parts_;
 };
 
 /// A part: what lies behind all of its faces.
 class Polyhedron : public Shape
 {
 public:
-    Polyhedron(TriSurface surface, std::shared_ptr<const PlaneFaces> faces) : surface_(std::move(surface)), faces_(std::move(faces)) {}
+    explicit Polyhedron(Part part) : surface_(std::move(part.surface)), faces_(std::move(part.faces)) {}
 
     /// The largest of the faces'.
     double distance(const Vec3& x) const override
@@ -216,12 +232,10 @@ std::vector<std::shared_ptr<const Shape>> convexParts(const TriSurface& surface)
     const double allowed = sameVolume * missing;
     try
     {
-        for (TriSurface& part : Partition(surface).parts())
+        for (Part& part : Partition(surface).parts())
         {
-            auto faces = convexFaces(part);
-            if (!faces) return {};
-            missing -= enclosedMoments(part).volume;
-            parts.push_back(std::make_shared<Polyhedron>(std::move(part), std::move(faces)));
+            missing -= enclosedMoments(part.surface).volume;
+            parts.push_back(std::make_shared<Polyhedron>(std::move(part)));
         }
     }
     catch (const TooMany&)

@@ -233,6 +233,54 @@ TEST_CASE("polyhedra from STL files that are not convex have their exact volume,
     }
 }
 
+namespace
+{
+
+/// From a file with coordinates of so many digits, which lie in no planes: steps of 60 by 80 mm, turned in space.
+TriSurface staircase(int nSteps, int nDigits)
+{
+    std::vector<std::array<double, 2>> section = {{-0.6, -0.5}, {-0.6 + 0.08 * nSteps, -0.5}};
+    for (int i = nSteps; i > 0; --i)
+    {
+        section.push_back({-0.6 + 0.08 * i, -0.5 + 0.06 * (nSteps + 1 - i)});
+        section.push_back({-0.6 + 0.08 * (i - 1), -0.5 + 0.06 * (nSteps + 1 - i)});
+    }
+    TriSurface steps = extruded(section, 0.7);
+    for (Vec3& x : steps.points)
+    {
+        x = Eigen::AngleAxisd(0.7, Vec3(0.3, 0.5, 0.9).normalized()) * x;
+        for (double& coordinate : x)
+        {
+            const double last = std::pow(10, std::floor(std::log10(std::abs(coordinate))) + 1 - nDigits);
+            coordinate = std::round(coordinate / last) * last;
+        }
+    }
+    return steps;
+}
+
+} // namespace
+
+TEST_CASE("parts of a polyhedron from a file of few digits meet in one plane: no slits between them, no holes")
+{
+    const int n = 10;
+    CoverScene scene(3, n);
+    CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+    for (const int nDigits : {5, 6, 7})
+    {
+        const auto shape = makeClosedSurface(staircase(15, nDigits));
+        CAPTURE(nDigits);
+        REQUIRE(shape->nParts() == 15);
+        for (int k = 0; k < 6; ++k)
+        {
+            std::vector<Solid> solids = {makeSolid(shape, {0.01 * k, 0.013 * k, 0.02}, k % 2 ? Solid::Kind::Free : Solid::Kind::Fixed)};
+            solids[0].pose.orientation = turned(3, k);
+            const Cover& cover = builder.buildExactVolume(solids);
+            CHECK(cover.solidVolume[0] == near(shape->moments().volume, 1e-5));
+            CHECK(largestHole(scene, cover, 2.0 / n) < 1e-12);
+        }
+    }
+}
+
 TEST_CASE("a tree with branches and a root plate has its volume and centre, also thinner than an element")
 {
     for (const double trunk : {0.5, 1.0, 1.4, 2.2, 3.0})
