@@ -13,6 +13,7 @@ namespace
 
 constexpr int usualFacets = 8;          // at an edge
 constexpr double sameFace = 1e-12;      // faces of two solids in one plane: what round-off makes of it must not lie outside of one for one part, and inside for the next
+constexpr double samePlane = 1e-10;     // over the farthest of the simplex's corners: planes of two solids that are no farther apart at any corner are one
 constexpr double justInside = -1e-300; // in place of zero: what is on a face is on the same side of it from both sides
 
 /// Follows the parts of one simplex through the faces of one solid after the other.
@@ -22,7 +23,10 @@ class EdgeCutter
 public:
     /// faceEnd: nSolids, of each solid's faces in `distances`.
     EdgeCutter(const double* distances, const int* faceEnd, int nSolids, double volume, const double* vertices, const double* gradN)
-        : distances_(distances), faceEnd_(faceEnd), nSolids_(nSolids), onFace_(nSolids > 1 ? sameFace : 0), volume_(volume), vertices_(vertices), gradN_(gradN) {}
+        : distances_(distances), faceEnd_(faceEnd), nSolids_(nSolids), onFace_(nSolids > 1 ? sameFace : 0), volume_(volume), vertices_(vertices), gradN_(gradN)
+    {
+        if (nSolids > 1) joinPlanes();
+    }
 
     EdgeCut<dim> cut()
     {
@@ -46,6 +50,36 @@ public:
 
 private:
     using Point = SimplexPoint<dim>;
+
+    /// Of planes that two solids nearly have in common, on the same or on opposite sides of it, the second becomes the first. What is on a face to round-off is inside of the other then, all of it. With
+    /// their small distance some corners of a facet would count as inside and some as outside, others than those of the piece of volume beside it.
+    void joinPlanes()
+    {
+        constexpr int n = dim + 1;
+        for (int solid = 1; solid < nSolids_; ++solid)
+            for (int face = faceEnd_[solid - 1]; face < faceEnd_[solid]; ++face)
+                for (int other = 0; other < faceEnd_[solid - 1]; ++other)
+                    if (const double sign = sideOf(distances_ + other * n, distances_ + face * n); sign != 0)
+                    {
+                        if (joined_.empty()) joined_.assign(distances_, distances_ + faceEnd_[nSolids_ - 1] * n);
+                        distances_ = joined_.data();
+                        for (int a = 0; a < n; ++a) joined_[face * n + a] = sign * joined_[other * n + a];
+                        break;
+                    }
+    }
+
+    /// 1, -1: the second plane is the first one, seen from the same or from the other side; 0: it is another one.
+    static double sideOf(const double* first, const double* second)
+    {
+        const double sign = (first[0] < 0) == (second[0] < 0) ? 1 : -1;
+        double farthest = 0, apart = 0;
+        for (int a = 0; a <= dim; ++a)
+        {
+            farthest = std::max(farthest, std::abs(first[a]));
+            apart = std::max(apart, std::abs(first[a] - sign * second[a]));
+        }
+        return apart < samePlane * farthest ? sign : 0;
+    }
 
     double valueAt(int face, const Point& p) const
     {
@@ -190,6 +224,7 @@ private:
     const double* distances_;
     const int* faceEnd_;
     int nSolids_;
+    std::vector<double> joined_;    // distances_, where planes were joined
     double onFace_;     // of a value over its terms: round-off
     double volume_;
     const double *vertices_, *gradN_;

@@ -281,6 +281,31 @@ TEST_CASE("parts of a polyhedron from a file of few digits meet in one plane: no
     }
 }
 
+TEST_CASE("parts that meet to round-off leave no holes: beside each other, and lapped with sides in one plane, shifted or turned by little")
+{
+    for (const int dim : {2, 3})
+    {
+        const int n = dim == 2 ? 20 : 10;
+        CoverScene scene(dim, n);
+        CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+        const Vec3 size(0.4, 0.6, dim == 2 ? 3 : 0.5), axis = dim == 2 ? Vec3(0, 0, 1) : Vec3(0.3, 0.5, 0.8).normalized();
+        double worst = 0;
+        for (const double little : {1e-5, 1e-8, 1e-10, 1e-12, 1e-13, 1e-14, 1e-16})
+        {
+            const Eigen::Quaterniond byLittle(Eigen::AngleAxisd(little, axis));
+            for (const auto& second : Shapes{makeBox({0.2 + little, 0, 0}, size), makePlaced(makeBox({0.2, 0, 0}, size), byLittle, Vec3::Zero()), makePlaced(makeBox({-0.1, 0, 0}, size), byLittle, Vec3::Zero())})
+                for (int k = 0; k < 10; ++k)
+                {
+                    std::vector<Solid> solids = {makeSolid(makeUnion({makeBox({-0.2, 0, 0}, size), second}), {0.01 * k, 0.013 * k, 0.02}, Solid::Kind::Free)};
+                    solids[0].pose.orientation = turned(dim, k);
+                    worst = std::max(worst, largestHole(scene, builder.buildExactVolume(solids), 2.0 / n));
+                }
+        }
+        std::printf("parts that meet to round-off, %dD: holes of %.0e faces\n", dim, worst);
+        CHECK(worst < 1e-6);
+    }
+}
+
 TEST_CASE("a tree with branches and a root plate has its volume and centre, also thinner than an element")
 {
     for (const double trunk : {0.5, 1.0, 1.4, 2.2, 3.0})
