@@ -147,6 +147,7 @@ std::shared_ptr<const Shape> makeUnion(std::vector<std::shared_ptr<const Shape>>
         if (inner) all.insert(all.end(), inner->parts().begin(), inner->parts().end());
         else all.push_back(std::move(part));
     }
+    if (all.size() == 1) return all[0]; // with its faces, also where it is placed
     return std::make_shared<UnionShape>(std::move(all));
 }
 

@@ -306,6 +306,13 @@ TEST_CASE("parts that meet to round-off leave no holes: beside each other, and l
     }
 }
 
+TEST_CASE("a union of one part is that part, also placed")
+{
+    const auto box = makeBox(Vec3::Zero(), {0.8, 0.6, 0.7});
+    CHECK(makePlaced(makeUnion({box}), Eigen::Quaterniond::Identity(), Vec3(0.1, 0, 0))->hasPlaneFaces());
+    CHECK(makeUnion({makeUnion({box})}) == box);
+}
+
 TEST_CASE("a tree with branches and a root plate has its volume and centre, also thinner than an element")
 {
     for (const double trunk : {0.5, 1.0, 1.4, 2.2, 3.0})
