@@ -50,9 +50,9 @@ public:
     double exactVolume(const Solid& solid) { return known(solid).volume; }
 
 private:
-    /// Distance of one part of a solid at a node near it, without the solid's offsets, and the number of the nearest of its faces. film: how far it
+    /// Distance of one part of a solid at a node near it, without the solid's offsets, the part's number and that of the nearest of its faces. film: how far it
     /// is kept off a wall there at least, filmFace: the nearest face then.
-    struct Sample { int node, face, filmFace; double distance, film; };
+    struct Sample { int node, part, face, filmFace; double distance, film; };
 
     /// Distances of the faces of a solid's parts at the nodes of one element, without faces that have the whole element inside and parts that have a face with it outside.
     struct CuttingFaces

@@ -95,7 +95,7 @@ void CoverBuilder::samplePart(const Solid& solid, int number, std::vector<Sample
         const double d = nFaces > 0 ? *nearest : film_.joined(node, part, part.plainDistance(x));
         if (d > limit) return;
         const int face = firstFace + static_cast<int>(nearest - faces);
-        Sample sample{node, face, face, d, noFilm};
+        Sample sample{node, number, face, face, d, noFilm};
         if (nFaces == 0) sample.film = film_.thickness(node, part);
         else
         {
@@ -117,7 +117,7 @@ void CoverBuilder::sampleMovingSolids(const std::vector<Solid>& solids)
 double CoverBuilder::cutDistance(const Solid& solid, const Sample& sample) const
 {
     const auto x = mesh_.spacePoint(sample.node);
-    const double distance = snapped(sample.distance - solid.offsetAt(Vec3(x[0], x[1], x[2])), snap_[sample.node]);
+    const double distance = snapped(sample.distance - SolidPart(solid, sample.part).offsetAt(Vec3(x[0], x[1], x[2])), snap_[sample.node]);
     return std::max(distance, sample.film);
 }
 

@@ -43,7 +43,7 @@ void NodeFaces::evaluate(Row& row, int number) const
     else
     {
         row.nFaces = 1;
-        row.distances[0] = film_.joined(row.node, part, std::max(part.plainDistance(place) - row.solid->offsetAt(place), film_.thickness(row.node, part)));
+        row.distances[0] = film_.joined(row.node, part, std::max(part.plainDistance(place) - part.offsetAt(place), film_.thickness(row.node, part)));
     }
     for (int k = 0; k < row.nFaces; ++k) row.distances[k] = snapped(row.distances[k], snap_[row.node]);
 }

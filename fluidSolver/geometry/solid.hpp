@@ -4,6 +4,7 @@
 
 #include "geometry/planeFaces.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -84,9 +85,12 @@ public:
     int faceDistances(const Vec3& x, double* distances) const
     {
         const int n = plainFaceDistances(x, distances);
-        for (int k = 0; k < n; ++k) distances[k] -= solid_->offsetAt(x);
+        const double offset = offsetAt(x);
+        for (int k = 0; k < n; ++k) distances[k] -= offset;
         return n;
     }
+    /// Of the solid, less than zero for round parts alone: plane faces are where they are, and moved inward two that lie on each other would leave a slit between them.
+    double offsetAt(const Vec3& x) const { return shape_->hasPlaneFaces() ? std::max(solid_->offsetAt(x), 0.0) : solid_->offsetAt(x); }
     /// As Solid::spaceBounds().
     std::array<Vec3, 2> spaceBounds() const;
 

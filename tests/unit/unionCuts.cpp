@@ -306,6 +306,30 @@ TEST_CASE("parts that meet to round-off leave no holes: beside each other, and l
     }
 }
 
+TEST_CASE("offsets of a union with round parts open no slits between plane parts that lie on each other")
+{
+    const int n = 16;
+    const double h = 2.0 / n;
+    CoverScene scene(3, n);
+    const Vec3 size(0.4, 0.5, 0.5);
+    const Shapes parts = {makeBox({-0.2, 0, 0}, size), makeBox({0.2, 0, 0}, size), makeCylinder({0.3, 0, 0}, {0.3, 0.5, 0.1}, 0.4 * h)};
+    for (const bool isLarger : {true, false})
+    {
+        std::vector<Solid> solids = {makeSolid(makeUnion(parts), {0.01, 0.013, 0.02}, Solid::Kind::Prescribed)};
+        solids[0].offset = isLarger ? 1e-4 * h : -1e-4 * h;     // stays
+        CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+        const Cover& cover = builder.build(solids);
+        int nCutInside = 0;
+        for (const CutElement& cut : cover.cuts)
+        {
+            const int* nodes = &scene.mesh.elements[std::size_t(cut.element) * 4];
+            nCutInside += std::all_of(nodes, nodes + 4, [&](int i) { return cover.distance[i] < 0; });
+        }
+        CHECK(scene.halo.sum(double(nCutInside)) == 0);
+        CHECK(largestHole(scene, cover, h) < 1e-9);
+    }
+}
+
 TEST_CASE("a union of one part is that part, also placed")
 {
     const auto box = makeBox(Vec3::Zero(), {0.8, 0.6, 0.7});
