@@ -21,9 +21,12 @@ void CoverBuilder::findSharpParts(const std::vector<Solid>& solids)
     std::sort(sharpParts_.begin(), sharpParts_.end(), [](const SharpPart& a, const SharpPart& b) { return a.element != b.element ? a.element < b.element : a.solid < b.solid; });
 }
 
-/// Of the solid alone, see visitCutAlone().
+/// Of the solid alone, see visitCutAlone(). A node as deep inside as that has far more than negligiblePart around it: no need to cut.
 bool CoverBuilder::hasPart(const Solid& solid, int element)
 {
+    constexpr double deep = 1e-3;   // over the element length
+    const int* nodes = nodesOf(element);
+    if (std::any_of(nodes, nodes + mesh_.dim + 1, [&](int i) { return aloneDistance_[i] < -deep * mesh_.h[element]; })) return true;
     bool has = false;
     const auto look = [&](const auto& fluid, const auto*, int) { has = mesh_.volume[element] - fluid.volume > negligiblePart * mesh_.volume[element]; };
     mesh_.dim == 2 ? visitCutAlone<2>(solid, element, look) : visitCutAlone<3>(solid, element, look);
