@@ -34,12 +34,12 @@ public:
 
     /// Before cutting, moves the surface of every free solid by Newton steps (one, unless it misses much), starting from its current Solid::offset
     /// and offsetSlope, so that the volume it cuts out alone (without neighbours) becomes exactVolume() and its centre the shape's. At most largestOffset.
-    /// A free solid that reaches through the boundary of the mesh, or is not in it, keeps its offsets. Fixed slip solids are moved once,
+    /// A free solid that reaches through the boundary of the mesh, or is not in it, keeps its offsets. Plane faces are not moved, but outward with round parts of a union. Fixed slip solids are moved once,
     /// to cut out the volume of their part inside the mesh. Solids thinner than resolvedThickness are marked
     /// Solid::isThin, round ones of them get Solid::planeFaces. Collective.
     const Cover& buildExactVolume(std::vector<Solid>& solids);
 
-    /// What buildExactVolume() begins with: Solid::isThin and planeFaces, by shape, pose and mesh alone; offsets of thin solids become zero. Before build() of solids whose
+    /// What buildExactVolume() begins with: Solid::isThin and planeFaces, by shape, pose and mesh alone; offsets of thin solids become zero, but for unions of round parts. Before build() of solids whose
     /// poses and offsets were stored. Collective.
     void chooseThin(std::vector<Solid>& solids);
 

@@ -30,6 +30,7 @@ SimplexCut<dim> wholeSimplex(double volume)
 
 } // namespace
 
+/// isPlain: near one solid alone, a union that is not thin. Where one part of it is near it is cut as other solids are, else part by part.
 void CoverBuilder::cutElement(Cover& cover, const std::vector<Solid>& solids, int element) const
 {
     const bool isPlain = isAmongSharp(element) && sharpElement_[element] == SharpElement::Alone && !solids[cover.nearestSolid[nodesOf(element)[0]]].isThin;
