@@ -84,7 +84,7 @@ void Fluid::findSurface(const Cover* cover)
     x_.clear();
     isLevelKnown_ = true;
     InterfacePlanes::Extent extent = planesExtent(controls_, transport_.width());
-    extent.throughSolids = cover && halo_.any(!cover->coveredFacets.empty());
+    extent.throughSolids = cover && halo_.any(cover->areSolidsClose);
     planes_.propagate(mesh_, graph_, halo_, level_, extent, cover, true);
 }
 

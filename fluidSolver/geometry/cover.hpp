@@ -84,6 +84,7 @@ struct Cover
     std::vector<GhostFace> ghostFaces;
     std::vector<CoveredFacet> coveredFacets;    ///< of owned and of inner elements
     std::vector<CoveredVolume> coveredVolumes;  ///< likewise
+    bool areSolidsClose = false;        ///< an element here has nodes or parts of a moving solid and of another one
     std::vector<char> isActiveNode;     ///< nNodes: some element with a fluid part holds the node
     std::vector<FilmNode> filmNodes;    ///< on walls, a loose solid less than an element over them: see WallFilm
     std::vector<double> solidVolume;    ///< per solid: sum over owned elements of the part it cuts out, all ranks [m^dim]

@@ -265,7 +265,6 @@ const Cover& CoverBuilder::cutMovingSolids(const std::vector<Solid>& solids)
     addSharpElements(cover_, solids);
     addClosedFaces();
     copyFixedCuts();
-    nodeFaces_.clear();
     std::vector<double> totals = fixedTotals_;
     for (int e : touchedElements_)
     {

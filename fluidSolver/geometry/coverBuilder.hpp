@@ -63,6 +63,8 @@ private:
         bool isApart() const { return end.empty(); }    // no part in the element
         bool isWhole() const { return !end.empty() && (end[0] == 0 || std::adjacent_find(end.begin(), end.end()) != end.end()); }    // it lies in one part as a whole
         void clear() { distances.clear(); end.clear(); }
+        int nFaces(std::size_t part) const { return end[part] - (part == 0 ? 0 : end[part - 1]); }
+        const double* distancesOf(std::size_t part, int dim) const { return distances.data() + (part == 0 ? 0 : end[part - 1]) * (dim + 1); }
     };
 
     /// Element of fixed solids that closeFaces() may have given facets, and the node beyond the face.
@@ -113,8 +115,12 @@ private:
     /// A sharp solid has a part in an element.
     struct SharpPart { int element, solid; };
 
-    /// Of elements with parts of sharp solids or nodes nearest to one. Alone: one sharp solid's; Apart: of several solids; Joined: with several others than sharp ones, which are cut as one.
-    enum class SharpElement : char { None, Alone, Apart, Joined };
+    /// Of elements with parts of sharp solids or nodes nearest to one. Alone: one sharp solid's; Apart: of several solids; Clear: likewise, but each of them has in it what it has alone;
+    /// Joined: with several others than sharp ones, which are cut as one.
+    enum class SharpElement : char { None, Alone, Apart, Clear, Joined };
+
+    /// In one element: nothing overlaps or touches.
+    struct Separation { bool partsApart, solidsApart; };
 
     /// Solids beside sharp ones in an element.
     struct Others { int solid[5], n = 0; };
@@ -128,9 +134,12 @@ private:
     SharpElement kindOf(const Cover& cover, const std::vector<Solid>& solids, int element) const;
     void addSharpElements(const Cover& cover, const std::vector<Solid>& solids);
     bool hasPart(const Solid& solid, int element);
+    template <int dim> bool hasPartBetweenNodes(const Solid& solid, int element);
     bool isAmongSharp(int element) const { return !sharpElements_.empty() && sharpElement_[element] != SharpElement::None; }
     Others othersIn(const Cover& cover, const std::vector<Solid>& solids, int element) const;
     template <int dim> void facesOf(const Others& others, const std::vector<Solid>& solids, int element, CuttingFaces& faces) const;
+    template <int dim> bool overlap(std::size_t part, std::size_t other, int element) const;
+    template <int dim> Separation separation(const std::vector<int>& solidOf, int element) const;
     template <int dim> void cutElementOfSolids(Cover& cover, const std::vector<Solid>& solids, int element) const;
     template <int dim> void cutPatchFaces(Cover& cover, int element, const CuttingFaces& faces) const;
     unsigned facesBeyond(const Solid& solid, int part) const;
@@ -151,7 +160,7 @@ private:
     template <class Visit, class Accept> void forEachElementAlone(const Solid& solid, const std::vector<Sample>& samples, Visit visit, Accept accept);
     template <int dim, class Visit> void visitCutAlone(const Solid& solid, int element, Visit visit) const;
     void findCovered(Cover& cover, const std::vector<Solid>& solids);
-    void findSharedNodes(const Cover& cover);
+    void findSharedNodes(Cover& cover);
     template <int nCorners>
     void addCovered(Cover& cover, int solid, int element, double area, const double* normal, int nPoints, const double (*shape)[nCorners]) const;
     template <int dim> void addAlone(Cover& cover, const std::vector<Solid>& solids, int solid, int element);
@@ -195,7 +204,7 @@ private:
         const SimplexFacet<dim>* facets, int nFacets, const int* solidOf = nullptr) const; // solidOf: of SimplexFacet::solid, -1: by the place
     template <int dim> std::array<double, (dim + 1) * dim> verticesOf(int element) const;
     template <int dim> void addCuttingFaces(const Solid& solid, int element, CuttingFaces& faces) const;
-    template <int dim> EdgeCut<dim> cutAtEdge(const CuttingFaces& faces, int element) const;
+    template <int dim> EdgeCut<dim> cutAtEdge(const CuttingFaces& faces, int element, bool areApart = false) const;
     int solidAt(const Cover& cover, const std::vector<Solid>& solids, int element, const double* shape) const;
     void copyFixedCuts();
     void findGhostFaces(Cover& cover) const;
@@ -215,6 +224,7 @@ private:
     std::vector<double> snap_;          // nNodes: distance that counts as solid [m]
     mutable NodeFaces nodeFaces_;
     mutable CuttingFaces cutting_;      // scratch
+    mutable std::vector<double> joined_;    // scratch
     std::vector<int> elementFace_;      // nElements*(dim+1): position in graph.faces, -1 at the boundary
     std::vector<char> isBoundaryNode_;
     std::array<double, 3> lower_{}, upper_{};   // of the whole mesh, in its plane
@@ -242,7 +252,7 @@ private:
     double longest_ = 0;                // element length of the whole mesh
     std::vector<SharpPart> sharpParts_;   // by element
     std::vector<int> sharpElements_;    // with sharp parts or nodes nearest to sharp solids
-    std::vector<SharpElement> sharpElement_;  // nElements, empty while there are none
+    mutable std::vector<SharpElement> sharpElement_;  // nElements, empty while there are none
     std::vector<int> coveredVolumeOf_;  // nElements, empty at first: position in cover_.coveredVolumes, -1 outside of findCovered()
     std::vector<int> sharedNodes_;      // of elements with nodes of several solids
     std::vector<char> isSharedNode_;    // nNodes

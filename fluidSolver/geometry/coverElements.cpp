@@ -136,18 +136,20 @@ void CoverBuilder::addCuttingFaces(const Solid& solid, int element, CuttingFaces
 template void CoverBuilder::addCuttingFaces<2>(const Solid&, int, CuttingFaces&) const;
 template void CoverBuilder::addCuttingFaces<3>(const Solid&, int, CuttingFaces&) const;
 
+/// areApart: no two parts overlap or touch in the element.
 template <int dim>
-EdgeCut<dim> CoverBuilder::cutAtEdge(const CuttingFaces& faces, int element) const
+EdgeCut<dim> CoverBuilder::cutAtEdge(const CuttingFaces& faces, int element, bool areApart) const
 {
     const auto vertices = verticesOf<dim>(element);
     const double* gradN = &mesh_.gradN[std::size_t(element) * (dim + 1) * dim];
     if (faces.isWhole()) return {};
     if (faces.end.size() == 1 && faces.end[0] == 1) return EdgeCut<dim>(cutSimplex<dim>(faces.distances.data(), mesh_.volume[element], vertices.data(), gradN));
-    return faces.end.size() == 1 ? cutSimplexAtEdge<dim>(faces.distances.data(), faces.end[0], mesh_.volume[element], vertices.data(), gradN)
-                                 : cutSimplexOfSolids<dim>(faces.distances.data(), faces.end, mesh_.volume[element], vertices.data(), gradN);
+    if (faces.end.size() == 1) return cutSimplexAtEdge<dim>(faces.distances.data(), faces.end[0], mesh_.volume[element], vertices.data(), gradN);
+    const auto cut = areApart ? cutSimplexOfApartSolids<dim> : cutSimplexOfSolids<dim>;
+    return cut(faces.distances.data(), faces.end, mesh_.volume[element], vertices.data(), gradN);
 }
-template EdgeCut<2> CoverBuilder::cutAtEdge<2>(const CuttingFaces&, int) const;
-template EdgeCut<3> CoverBuilder::cutAtEdge<3>(const CuttingFaces&, int) const;
+template EdgeCut<2> CoverBuilder::cutAtEdge<2>(const CuttingFaces&, int, bool) const;
+template EdgeCut<3> CoverBuilder::cutAtEdge<3>(const CuttingFaces&, int, bool) const;
 
 template <int dim>
 void CoverBuilder::cutElementAtEdge(Cover& cover, const std::vector<Solid>& solids, int element, const double* distance) const

@@ -12,6 +12,7 @@ void CoverBuilder::findCovered(Cover& cover, const std::vector<Solid>& solids)
 {
     cover.coveredFacets.clear();
     cover.coveredVolumes.clear();
+    cover.areSolidsClose = false;
     findSharedNodes(cover);
     for (std::size_t s = 0; s < solids.size(); ++s)
     {
@@ -46,13 +47,15 @@ CoveredVolume& CoverBuilder::coveredVolume(Cover& cover, int element)
 }
 
 /// Nodes of elements with nodes of several solids, among those that moving solids may cut: most of the elements around a body are its own.
-void CoverBuilder::findSharedNodes(const Cover& cover)
+void CoverBuilder::findSharedNodes(Cover& cover)
 {
     for (int i : sharedNodes_) isSharedNode_[i] = 0;
     sharedNodes_.clear();
     for (int e : touchedElements_)
     {
-        if (!isShared(cover, cover.nearestSolid[nodesOf(e)[0]], e)) continue;
+        const bool isClear = isAmongSharp(e) && sharpElement_[e] == SharpElement::Clear, isOfSeveral = !isClear && isShared(cover, cover.nearestSolid[nodesOf(e)[0]], e);
+        cover.areSolidsClose = cover.areSolidsClose || isClear || isOfSeveral;
+        if (!isOfSeveral) continue;
         for (int a = 0; a <= mesh_.dim; ++a)
         {
             const int i = nodesOf(e)[a];
@@ -65,7 +68,7 @@ void CoverBuilder::findSharedNodes(const Cover& cover)
 
 bool CoverBuilder::isShared(const Cover& cover, int solid, int element) const
 {
-    if (isAmongSharp(element) && sharpElement_[element] != SharpElement::Alone) return true;
+    if (isAmongSharp(element) && sharpElement_[element] != SharpElement::Alone) return sharpElement_[element] != SharpElement::Clear;
     const int* nodes = nodesOf(element);
     return std::any_of(nodes, nodes + mesh_.dim + 1, [&](int i) { return cover.nearestSolid[i] != solid; });
 }

@@ -69,6 +69,14 @@ EdgeCut<dim> cutSimplexAtEdge(const double* distances, int nFaces, double volume
 template <int dim>
 EdgeCut<dim> cutSimplexOfSolids(const double* distances, const std::vector<int>& faceEnd, double volume, const double* vertices, const double* gradN);
 
+/// The same of solids that neither overlap nor touch in the simplex, cut one by one: cheaper, and the same to round-off.
+template <int dim>
+EdgeCut<dim> cutSimplexOfApartSolids(const double* distances, const std::vector<int>& faceEnd, double volume, const double* vertices, const double* gradN);
+
+/// The simplex has a part inside of all faces: a piece of more than leastPart of it. Far cheaper than the cut, of which it tells nothing else.
+template <int dim>
+bool hasSolidPart(const double* distances, int nFaces, double leastPart = negligiblePart);
+
 /// Adds the part of a simplex's face, the one opposite to `corner`, that lies in the solids (as above); normals out of the simplex.
 template <int dim>
 void addFacePart(int corner, const double* distances, const std::vector<int>& faceEnd, double volume, const double* vertices, const double* gradN, std::vector<SimplexFacet<dim>>& facets);

@@ -15,6 +15,7 @@ namespace
 constexpr int usualFacets = 8;          // at an edge
 constexpr double sameFace = 1e-12;      // faces of two solids in one plane: what round-off makes of it must not lie outside of one for one part, and inside for the next
 constexpr double samePlane = 1e-10;     // over the farthest of the simplex's corners: planes of two solids that are no farther apart at any corner are one
+constexpr double leastRest = 0.01;      // over the simplex: a smaller fluid part is summed up itself
 constexpr double justInside = -1e-300; // in place of zero: what is on a face is on the same side of it from both sides
 
 /// Follows the parts of one simplex through the faces of one solid after the other.
@@ -35,6 +36,22 @@ public:
         for (int a = 0; a <= dim; ++a) whole[a].n[a] = 1;
         cutPart(whole, volume_, 0, 0);
         return std::move(result_);
+    }
+
+    /// The solid part instead, and its facets: of one solid.
+    EdgeCut<dim> cutSolid()
+    {
+        SimplexPoint<dim> whole[dim + 1] = {};
+        for (int a = 0; a <= dim; ++a) whole[a].n[a] = 1;
+        cutInside(whole, volume_, 0);
+        return std::move(result_);
+    }
+
+    bool hasSolidPart(double leastPart) const
+    {
+        Point whole[dim + 1] = {};
+        for (int a = 0; a <= dim; ++a) whole[a].n[a] = 1;
+        return hasSolidPart(whole, 1, 0, leastPart);
     }
 
     /// The part in the solids of the simplex's own face opposite to `corner`.
@@ -114,6 +131,49 @@ private:
                 result[i].n[a] = 0;
                 for (int j = 0; j <= dim; ++j) result[i].n[a] += local[i].n[j] * corners[j].n[a];
             }
+    }
+
+    /// A part inside of all faces before `face`: what is inside of all of them is added.
+    void cutInside(const Point* corners, double partVolume, int face)
+    {
+        double values[dim + 1];
+        int nPositive = 0;
+        for (; face < faceEnd_[0] && nPositive == 0; face += nPositive == 0) nPositive = valuesAt<dim + 1>(face, corners, values);
+        if (nPositive == dim + 1) return;
+        if (nPositive == 0) return addPart<dim>(result_, corners, partVolume, volume_);
+        for (double& v : values) v = -v;
+        const SimplexDivision<dim> inside = divideSimplex<dim>(values);
+        Point part[dim + 1];
+        for (int k = 0; k < inside.nFacets; ++k)
+        {
+            toElement(corners, inside.facets[k].corner, dim, part);
+            cutFacet(part, distances_ + face * (dim + 1), 0, face + 1);
+        }
+        for (int k = 0; k < inside.nParts; ++k)
+        {
+            if (inside.parts[k].share * partVolume < negligiblePart * volume_) continue;
+            toElement(corners, inside.parts[k].corner, dim + 1, part);
+            cutInside(part, inside.parts[k].share * partVolume, face + 1);
+        }
+    }
+
+    /// Of a part inside of all faces before `face`, share: of the simplex.
+    bool hasSolidPart(const Point* corners, double share, int face, double leastPart) const
+    {
+        double values[dim + 1];
+        int nPositive = 0;
+        for (; face < faceEnd_[0] && nPositive == 0; face += nPositive == 0) nPositive = valuesAt<dim + 1>(face, corners, values);
+        if (nPositive == 0 || nPositive == dim + 1) return nPositive == 0;
+        for (double& v : values) v = -v;
+        const SimplexDivision<dim> inside = divideSimplex<dim>(values);
+        for (int k = 0; k < inside.nParts; ++k)
+        {
+            if (!(inside.parts[k].share * share > leastPart)) continue;
+            Point part[dim + 1];
+            toElement(corners, inside.parts[k].corner, dim + 1, part);
+            if (hasSolidPart(part, inside.parts[k].share * share, face + 1, leastPart)) return true;
+        }
+        return false;
     }
 
     /// Of the fluid, or cut by the next solid.
@@ -234,13 +294,26 @@ private:
     double normal_[dim];
 };
 
-} // namespace
+/// The moments of the fluid from those of the solid.
+template <int dim>
+void takeRest(SimplexMoments<dim>& moments, double volume)
+{
+    constexpr int n = dim + 1;
+    moments.volume = volume - moments.volume;
+    for (int a = 0; a < n; ++a) moments.first[a] = volume / n - moments.first[a];
+    for (int ab = 0; ab < n * n; ++ab) moments.second[ab] = volume * (ab / n == ab % n ? 2 : 1) / (n * (n + 1)) - moments.second[ab];
+}
 
 template <int dim>
-EdgeCut<dim> cutSimplexAtEdge(const double* distances, int nFaces, double volume, const double* vertices, const double* gradN)
+void add(const EdgeCut<dim>& part, int solid, EdgeCut<dim>& sum)
 {
-    return EdgeCutter<dim>(distances, &nFaces, 1, volume, vertices, gradN).cut();
+    sum.volume += part.volume;
+    for (int a = 0; a <= dim; ++a) sum.first[a] += part.first[a];
+    for (int ab = 0; ab < (dim + 1) * (dim + 1); ++ab) sum.second[ab] += part.second[ab];
+    for (const SimplexFacet<dim>& facet : part.facets) sum.facets.emplace_back(facet).solid = solid;
 }
+
+} // namespace
 
 namespace
 {
@@ -317,12 +390,44 @@ void mergePieces(std::vector<SimplexFacet<dim>>& facets)
 
 } // namespace
 
+/// The solid part has fewer pieces than the fluid, which is the rest of it, unless that is so little that digits were lost.
+template <int dim>
+EdgeCut<dim> cutSimplexAtEdge(const double* distances, int nFaces, double volume, const double* vertices, const double* gradN)
+{
+    EdgeCut<dim> cut = EdgeCutter<dim>(distances, &nFaces, 1, volume, vertices, gradN).cutSolid();
+    if (volume - cut.volume < leastRest * volume) return EdgeCutter<dim>(distances, &nFaces, 1, volume, vertices, gradN).cut();
+    takeRest(cut, volume);
+    mergePieces<dim>(cut.facets);
+    return cut;
+}
+
 template <int dim>
 EdgeCut<dim> cutSimplexOfSolids(const double* distances, const std::vector<int>& faceEnd, double volume, const double* vertices, const double* gradN)
 {
     EdgeCut<dim> cut = EdgeCutter<dim>(distances, faceEnd.data(), static_cast<int>(faceEnd.size()), volume, vertices, gradN).cut();
     mergePieces<dim>(cut.facets);
     return cut;
+}
+
+template <int dim>
+EdgeCut<dim> cutSimplexOfApartSolids(const double* distances, const std::vector<int>& faceEnd, double volume, const double* vertices, const double* gradN)
+{
+    EdgeCut<dim> sum;
+    for (std::size_t solid = 0; solid < faceEnd.size(); ++solid)
+    {
+        const int start = solid == 0 ? 0 : faceEnd[solid - 1], nFaces = faceEnd[solid] - start;
+        add(EdgeCutter<dim>(distances + start * (dim + 1), &nFaces, 1, volume, vertices, gradN).cutSolid(), static_cast<int>(solid), sum);
+    }
+    if (volume - sum.volume < leastRest * volume) return cutSimplexOfSolids<dim>(distances, faceEnd, volume, vertices, gradN);
+    takeRest(sum, volume);
+    mergePieces<dim>(sum.facets);
+    return sum;
+}
+
+template <int dim>
+bool hasSolidPart(const double* distances, int nFaces, double leastPart)
+{
+    return EdgeCutter<dim>(distances, &nFaces, 1, 1, nullptr, nullptr).hasSolidPart(leastPart);
 }
 
 template <int dim>
@@ -336,6 +441,10 @@ template EdgeCut<2> cutSimplexAtEdge<2>(const double*, int, double, const double
 template EdgeCut<3> cutSimplexAtEdge<3>(const double*, int, double, const double*, const double*);
 template EdgeCut<2> cutSimplexOfSolids<2>(const double*, const std::vector<int>&, double, const double*, const double*);
 template EdgeCut<3> cutSimplexOfSolids<3>(const double*, const std::vector<int>&, double, const double*, const double*);
+template EdgeCut<2> cutSimplexOfApartSolids<2>(const double*, const std::vector<int>&, double, const double*, const double*);
+template EdgeCut<3> cutSimplexOfApartSolids<3>(const double*, const std::vector<int>&, double, const double*, const double*);
+template bool hasSolidPart<2>(const double*, int, double);
+template bool hasSolidPart<3>(const double*, int, double);
 template void addFacePart<2>(int, const double*, const std::vector<int>&, double, const double*, const double*, std::vector<SimplexFacet<2>>&);
 template void addFacePart<3>(int, const double*, const std::vector<int>&, double, const double*, const double*, std::vector<SimplexFacet<3>>&);
 

@@ -14,11 +14,11 @@ void NodeFaces::clear()
 
 int NodeFaces::find(int node, const Solid& solid)
 {
-    int& position = position_[node];
-    if (position >= 0 && rows_[position].solid == &solid) return position;
-    position = static_cast<int>(rows_.size());
-    for (int part = 0; part < solid.shape->nParts(); ++part) evaluate(rows_.emplace_back(Row{&solid, node, 0, {}}), part);
-    return position;
+    for (int row = position_[node]; row >= 0; row = rows_[row].next)
+        if (rows_[row].solid == &solid) return row;
+    const int newest = static_cast<int>(rows_.size());
+    for (int part = 0; part < solid.shape->nParts(); ++part) evaluate(rows_.emplace_back(Row{&solid, node, position_[node], 0, {}}), part);
+    return position_[node] = newest;
 }
 
 double NodeFaces::distance(int node, const Solid& solid)

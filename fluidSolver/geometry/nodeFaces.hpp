@@ -22,7 +22,7 @@ public:
     /// To be called when solids have moved.
     void clear();
 
-    /// Row of a solid's first part at a node, those of the other parts follow; valid until clear(). A node knows the row of the solid that was asked for last.
+    /// Row of a solid's first part at a node, those of the other parts follow; valid until clear().
     int find(int node, const Solid& solid);
 
     /// As the cut sees them: SolidPart::faceDistances, of shapes without faces their distance, off the walls, never 0. Valid until find().
@@ -33,14 +33,14 @@ public:
     double distance(int node, const Solid& solid);
 
 private:
-    struct Row { const Solid* solid; int node, nFaces; double distances[maxFaces]; };
+    struct Row { const Solid* solid; int node, next, nFaces; double distances[maxFaces]; };   // next: of another solid at the node, -1: none
 
     void evaluate(Row& row, int part) const;
 
     const SimplexMesh& mesh_;
     const WallFilm& film_;
     const std::vector<double>& snap_;
-    std::vector<int> position_;     // nNodes: in rows_, -1: none
+    std::vector<int> position_;     // nNodes: of the newest row in rows_, -1: none
     std::vector<Row> rows_;
 };
 

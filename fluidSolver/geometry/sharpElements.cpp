@@ -21,16 +21,29 @@ void CoverBuilder::findSharpParts(const std::vector<Solid>& solids)
     std::sort(sharpParts_.begin(), sharpParts_.end(), [](const SharpPart& a, const SharpPart& b) { return a.element != b.element ? a.element < b.element : a.solid < b.solid; });
 }
 
-/// Of the solid alone, see visitCutAlone(). A node as deep inside as that has far more than negligiblePart around it: no need to cut.
+/// Of the solid alone, as visitCutAlone() cuts it. A node as deep inside as that has far more than negligiblePart around it: no need to look.
 bool CoverBuilder::hasPart(const Solid& solid, int element)
 {
     constexpr double deep = 1e-3;   // over the element length
     const int* nodes = nodesOf(element);
     if (std::any_of(nodes, nodes + mesh_.dim + 1, [&](int i) { return aloneDistance_[i] < -deep * mesh_.h[element]; })) return true;
-    bool has = false;
-    const auto look = [&](const auto& fluid, const auto*, int) { has = mesh_.volume[element] - fluid.volume > negligiblePart * mesh_.volume[element]; };
-    mesh_.dim == 2 ? visitCutAlone<2>(solid, element, look) : visitCutAlone<3>(solid, element, look);
-    return has;
+    return mesh_.dim == 2 ? hasPartBetweenNodes<2>(solid, element) : hasPartBetweenNodes<3>(solid, element);
+}
+
+template <int dim>
+bool CoverBuilder::hasPartBetweenNodes(const Solid& solid, int element)
+{
+    if (!isNear(aloneDistance_, element)) return false;
+    double distance[dim + 1];
+    for (int a = 0; a <= dim; ++a) distance[a] = aloneDistance_[nodesOf(element)[a]];
+    const auto nInside = std::count_if(distance, distance + dim + 1, [](double d) { return d < 0; });
+    if (nInside == dim + 1 && !hasSeveralParts(aloneFace_, element)) return true;
+    if (!isAtEdge(aloneFace_, element)) return nInside > 0 && hasSolidPart<dim>(distance, 1);
+    cutting_.clear();
+    addCuttingFaces<dim>(solid, element, cutting_);
+    for (std::size_t part = 0; part < cutting_.end.size(); ++part)
+        if (hasSolidPart<dim>(cutting_.distancesOf(part, dim), cutting_.nFaces(part))) return true;
+    return false;
 }
 
 /// Of those sorted by element: the first one of this element or after it, or the end.
@@ -140,6 +153,32 @@ void CoverBuilder::cutPatchFaces(Cover& cover, int element, const CuttingFaces& 
 template void CoverBuilder::cutPatchFaces<2>(Cover&, int, const CuttingFaces&) const;
 template void CoverBuilder::cutPatchFaces<3>(Cover&, int, const CuttingFaces&) const;
 
+/// Two parts of `cutting_` have anything in common, or less than `touching` between them.
+template <int dim>
+bool CoverBuilder::overlap(std::size_t part, std::size_t other, int element) const
+{
+    constexpr double touching = 1e-8;   // over the element length: a hundred times what nodes count as solid by
+    joined_.clear();
+    for (std::size_t p : {other, part}) joined_.insert(joined_.end(), cutting_.distancesOf(p, dim), cutting_.distancesOf(p, dim) + cutting_.nFaces(p) * (dim + 1));
+    for (double& distance : joined_) distance -= touching * mesh_.h[element];
+    return hasSolidPart<dim>(joined_.data(), cutting_.nFaces(other) + cutting_.nFaces(part), 0);
+}
+
+/// Of all parts of `cutting_`, and of those of different solids. solidOf: of the parts.
+template <int dim>
+CoverBuilder::Separation CoverBuilder::separation(const std::vector<int>& solidOf, int element) const
+{
+    Separation are{true, true};
+    for (std::size_t part = 0; part < solidOf.size() && are.solidsApart; ++part)
+        for (std::size_t other = 0; other < part; ++other)
+        {
+            if (!overlap<dim>(part, other, element)) continue;
+            are.partsApart = false;
+            are.solidsApart = are.solidsApart && solidOf[part] == solidOf[other];
+        }
+    return are;
+}
+
 template <int dim>
 void CoverBuilder::cutElementOfSolids(Cover& cover, const std::vector<Solid>& solids, int element) const
 {
@@ -157,9 +196,12 @@ void CoverBuilder::cutElementOfSolids(Cover& cover, const std::vector<Solid>& so
     const Others others = othersIn(cover, solids, element);
     if (others.n > 0) facesOf<dim>(others, solids, element, cutting_);
     solidOf.resize(cutting_.end.size(), others.n == 1 ? others.solid[0] : -1);
+    const bool isOfSharp = others.n == 0 || (others.n == 1 && others.solid[0] < 0);
+    const Separation are = separation<dim>(solidOf, element);
+    if (isOfSharp && sharpElement_[element] == SharpElement::Apart && are.solidsApart) sharpElement_[element] = SharpElement::Clear;
     if (cutting_.isApart()) return;
     cutPatchFaces<dim>(cover, element, cutting_);
-    const EdgeCut<dim> cut = cutAtEdge<dim>(cutting_, element);
+    const EdgeCut<dim> cut = cutAtEdge<dim>(cutting_, element, are.partsApart);
     storeCut<dim>(cover, solids, element, cut, cut.facets.data(), static_cast<int>(cut.facets.size()), solidOf.data());
 }
 template void CoverBuilder::cutElementOfSolids<2>(Cover&, const std::vector<Solid>&, int) const;

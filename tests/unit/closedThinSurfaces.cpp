@@ -58,6 +58,47 @@ TEST_CASE("bodies thinner than an element that touch cut out their volumes, and 
     CHECK(missing < 1e-10);
 }
 
+// What they cover is nothing then, and costs nothing.
+TEST_CASE("bodies thinner than an element, several in one, cover something of each other only where they touch")
+{
+    for (const int dim : {2, 3})
+    {
+        const int n = dim == 2 ? 24 : 12;
+        const double h = 2.0 / n, d = 0.4 * h;
+        const CoverScene scene(dim, n);
+        CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+        const auto log = dim == 2 ? makeCylinder({0, 0, -0.5}, {0, 0, 0.5}, 0.5 * d) : makeCylinder({-0.3, 0, 0}, {0.3, 0, 0}, 0.5 * d);
+        const auto plank = dim == 2 ? makeBox(Vec3::Zero(), {d, d, 1}) : makeBox(Vec3::Zero(), {0.6, d, d});
+        for (const auto& shape : {log, plank})
+            for (const double gap : {0.3, 1e-3, 1e-6, -1e-6, -1e-3, -0.1})  // of the thickness
+            {
+                const bool isRound = shape == log;
+                const double by = isRound ? 0.1 * (gap > 0 ? 1 : -1) + gap : gap;   // the planes it is cut by reach beyond it, or less far
+                std::vector<Solid> solids;
+                for (int j = 0; j < 3; ++j) solids.push_back(makeSolid(shape, {0.017, 0.03 + (j - 1) * d * (1 + by), 0.02}, Solid::Kind::Free));
+                for (Solid& solid : solids) solid.pose.orientation = Eigen::Quaterniond::Identity();
+                const Cover& cover = builder.buildExactVolume(solids);
+                CAPTURE(dim);
+                CAPTURE(isRound);
+                CAPTURE(gap);
+                CHECK(scene.halo.any(cover.areSolidsClose));
+                CHECK(scene.halo.any(!cover.coveredFacets.empty()) == (gap < 0));
+                CHECK(scene.halo.any(!cover.coveredVolumes.empty()) == (gap < 0));
+                CHECK(largestHole(scene, cover, h) < (gap == -1e-6 ? 1e-7 : 1e-12));    // of so thin an overlap pieces are negligible
+                for (int s = 0; s < 3; ++s)
+                {
+                    double covered;
+                    const Eigen::Matrix<double, 4, 3> moments = surfaceMoments(scene, cover, s, covered);
+                    const double volume = builder.exactVolume(solids[s]);
+                    for (int c = 0; c < dim; ++c)
+                        for (int r = 0; r <= dim; ++r) CHECK(moments(r, c) == within(r == c + 1 ? -volume : 0, 1e-11 * volume));
+                }
+                const double volumes = 3 * builder.exactVolume(solids[0]);
+                if (gap > 0) CHECK(cover.solidVolume[0] + cover.solidVolume[1] + cover.solidVolume[2] == near(volumes, 1e-11));
+            }
+    }
+}
+
 TEST_CASE("round bodies and polyhedra thinner than an element have their volume and centre, whatever frame they are given in")
 {
     const CoverScene scene(3, 12);

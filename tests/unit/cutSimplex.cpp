@@ -5,9 +5,12 @@
 #include <Eigen/Dense>
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <random>
+#include <vector>
 
 using namespace flotsam;
 
@@ -241,6 +244,81 @@ TEST_CASE_TEMPLATE("two faces, one after the other or in the other order: the sa
         for (const auto& facet : other.facets) areas -= facet.area;
         CHECK(std::abs(areas) < 1e-12);
     }
+}
+
+namespace
+{
+
+/// Largest difference of the moments, and of the sums over the facets of (1, N_a) n and N_a N_b n, each solid's, over volume and a unit of area.
+template <int dim>
+double differenceOf(const Simplex<dim>& simplex, const EdgeCut<dim>& one, const EdgeCut<dim>& other, int nSolids)
+{
+    constexpr int n = dim + 1, perSolid = dim * (1 + n + n * n);
+    double worst = std::abs(one.volume - other.volume);
+    for (int a = 0; a < n; ++a) worst = std::max(worst, std::abs(one.first[a] - other.first[a]));
+    for (int ab = 0; ab < n * n; ++ab) worst = std::max(worst, std::abs(one.second[ab] - other.second[ab]));
+    worst /= simplex.volume;
+    std::vector<double> sums(std::size_t(perSolid) * nSolids, 0);
+    for (const EdgeCut<dim>* cut : {&one, &other})
+        for (const SimplexFacet<dim>& facet : cut->facets)
+            for (int q = 0; q < dim; ++q)
+                for (int d = 0; d < dim; ++d)
+                {
+                    const double area = (cut == &one ? 1 : -1) * facet.weight[q] * facet.normal[d];
+                    double* sum = &sums[std::size_t(facet.solid) * perSolid + d];
+                    sum[0] += area;
+                    for (int a = 0; a < n; ++a) sum[dim * (1 + a)] += area * facet.shape[q][a];
+                    for (int ab = 0; ab < n * n; ++ab) sum[dim * (1 + n + ab)] += area * facet.shape[q][ab / n] * facet.shape[q][ab % n];
+                }
+    for (const double sum : sums) worst = std::max(worst, std::abs(sum));
+    return worst;
+}
+
+} // namespace
+
+// Wedges with two faces each, on both sides of a plane and a gap away from it; with the gap's sign turned they overlap.
+TEST_CASE_TEMPLATE("solids apart from each other are cut one by one as they are together; parts, overlaps and touches are told from none", Dim,
+                   std::integral_constant<int, 2>, std::integral_constant<int, 3>)
+{
+    constexpr int dim = Dim::value, n = dim + 1;
+    std::mt19937 generator(6);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    double worst = 0;
+    int nBoth = 0;
+    for (int repeat = 0; repeat < 500; ++repeat)
+    {
+        const Simplex<dim> simplex = randomSimplex<dim>(generator);
+        double plane[n], apart[4 * n], joined[4 * n];
+        for (double& value : plane) value = uniform(generator);
+        const double gap = repeat % 2 ? 1e-6 : 0.2;
+        for (int a = 0; a < n; ++a)
+        {
+            apart[a] = plane[a] + gap;                  // 0, 1: faces of the first
+            apart[n + a] = uniform(generator);
+            apart[2 * n + a] = -plane[a] + gap;         // 2, 3: of the second
+            apart[3 * n + a] = uniform(generator);
+        }
+        const EdgeCut<dim> one = cutSimplexOfApartSolids<dim>(apart, {2, 4}, simplex.volume, simplex.vertices, simplex.gradN);
+        const EdgeCut<dim> other = cutSimplexOfSolids<dim>(apart, {2, 4}, simplex.volume, simplex.vertices, simplex.gradN);
+        worst = std::max(worst, differenceOf(simplex, one, other, 2));
+        CHECK_FALSE(hasSolidPart<dim>(apart, 4));
+        double solid = simplex.volume - one.volume;
+        for (int k = 0; k < 2; ++k)
+        {
+            const EdgeCut<dim> alone = cutSimplexAtEdge<dim>(apart + 2 * k * n, 2, simplex.volume, simplex.vertices, simplex.gradN);
+            CHECK(hasSolidPart<dim>(apart + 2 * k * n, 2) == (simplex.volume - alone.volume > 1e-13 * simplex.volume));
+            solid -= simplex.volume - alone.volume;
+            nBoth += alone.volume < simplex.volume;
+        }
+        CHECK(std::abs(solid) < 1e-13 * simplex.volume);
+        for (int a = 0; a < 4 * n; ++a) joined[a] = apart[a] - 1.01 * gap;      // closer by more than the gap
+        for (int a = 0; a < n; ++a) joined[n + a] = joined[3 * n + a] = -1;     // nothing but the two planes
+        const double least = *std::min_element(plane, plane + n), largest = *std::max_element(plane, plane + n);
+        if (std::abs(least) > 0.01 && std::abs(largest) > 0.01) CHECK(hasSolidPart<dim>(joined, 4) == (least < 0 && largest > 0));
+    }
+    std::printf("%dD: solids apart one by one and together differ by %.1e, %d parts\n", dim, worst, nBoth);
+    CHECK(nBoth > 600);
+    CHECK(worst < 1e-12);
 }
 
 TEST_CASE("the corner of a box in an element with all nodes outside")
