@@ -40,6 +40,26 @@ def wideDamBreak(root, runs, n):
     return Scene("dam break 3D, two wide", folder, COURANT / n / fastest, 5, 25)
 
 
+LOGS = [0, 20, 100, 400, 700]
+
+
+def logCarpet(root, runs, count):
+    """Logs of 0.4 m that fall at random places on a tank of 8 x 2 m, which gravity tilts a little, until most of them touch: the case of the dam break with other files."""
+    folder = os.path.join(runs, f"logCarpet_{count}")
+    shutil.rmtree(folder, ignore_errors=True)
+    for part in ("damBreak", "logCarpet"):
+        shutil.copytree(os.path.join(root, "speed", part), folder, dirs_exist_ok=True)
+    shutil.copytree(os.path.join(folder, "0.orig"), os.path.join(folder, "0"))
+    if count == 0:
+        os.remove(os.path.join(folder, "constant", "bodies"))
+    with open(os.path.join(folder, "system", "parameters"), "w", encoding="utf-8") as out:
+        out.write(f"solver flotsamFoam;\nnLogs {count};\n")
+    steps.write(folder, 1, 1)
+    for tool in ("blockMesh", "setExprFields"):
+        steps.do(folder, tool)
+    return Scene("log carpet", folder, 0.0125, 30, 40)
+
+
 def _copyTutorial(root, runs, tutorial, suffix=""):
     source, folder = os.path.join(root, "..", "tutorials", tutorial), os.path.join(runs, tutorial + suffix)
     shutil.rmtree(folder, ignore_errors=True)

@@ -78,6 +78,17 @@ def _targets(rows):
     return markdown(["target", "at most", "value", "verdict"], lines) if lines else ""
 
 
+def _logs(rows):
+    """A step against the number of logs, and what each of them adds to that without."""
+    carpets = sorted(((int(o["size"]), o) for o, _ in _pairs(rows) if o["scene"] == "log carpet"), key=lambda pair: pair[0])
+    if not carpets or carpets[0][0] != 0:
+        return ""
+    step = {n: 1e-6 * number(o, "total") * number(o, "nodes") for n, o in carpets}
+    lines = [[n, f"{step[n]:.2f}", f"{1e3 * (step[n] - step[0]) / n:.1f}" if n else "", *[f"{1e-6 * (number(o, p) or 0) * number(o, 'nodes'):.2f}" for p in PHASES], f"{number(o, 'iterations'):.1f}",
+              o["commit"]] for n, o in carpets]
+    return markdown(["logs", "step [s]", "a log [ms]", *PHASES, "iterations", "commit"], lines)
+
+
 def _plot(rows, file):
     import matplotlib
     matplotlib.use("Agg")
@@ -118,7 +129,8 @@ def write(rows, results):
              f"Machine: {last['machine']}; {last['compiler']}.", "![time per node and step](speed.png)", "## Targets", _targets(rows),
              "## A step beside interFoam's", _comparison(rows),
              "## Phases", "Processor us per node and step:", _phases(rows, False), "Share of the step [%]:", _phases(rows, True),
-             "## Growth and memory", "Points: nodes (interFoam: cells).", _growth(rows)]
+             "## Growth and memory", "Points: nodes (interFoam: cells).", _growth(rows),
+             *(["## Number of logs", "The log carpet: processor seconds a step, in all and by phase, and what a log adds.", _logs(rows)] if _logs(rows) else [])]
     with open(os.path.join(results, "speed.md"), "w", encoding="utf-8") as out:
         out.write("\n\n".join(part for part in parts if part) + "\n")
     _plot(rows, os.path.join(results, "speed.png"))

@@ -136,6 +136,8 @@ private:
     bool hasPart(const Solid& solid, int element);
     template <int dim> bool hasPartBetweenNodes(const Solid& solid, int element);
     bool isAmongSharp(int element) const { return !sharpElements_.empty() && sharpElement_[element] != SharpElement::None; }
+    void markOthers(const std::vector<Solid>& solids);
+    bool isOfSharpAlone(const Others& others, int element) const;
     Others othersIn(const Cover& cover, const std::vector<Solid>& solids, int element) const;
     template <int dim> void facesOf(const Others& others, const std::vector<Solid>& solids, int element, CuttingFaces& faces) const;
     template <int dim> bool overlap(std::size_t part, std::size_t other, int element) const;
@@ -253,6 +255,7 @@ private:
     std::vector<SharpPart> sharpParts_;   // by element
     std::vector<int> sharpElements_;    // with sharp parts or nodes nearest to sharp solids
     mutable std::vector<SharpElement> sharpElement_;  // nElements, empty while there are none
+    std::vector<char> isNearOther_;     // nNodes, see markOthers()
     std::vector<int> coveredVolumeOf_;  // nElements, empty at first: position in cover_.coveredVolumes, -1 outside of findCovered()
     std::vector<int> sharedNodes_;      // of elements with nodes of several solids
     std::vector<char> isSharedNode_;    // nNodes

@@ -72,6 +72,7 @@ void CoverBuilder::addSharpElements(const Cover& cover, const std::vector<Solid>
     sharpElements_.clear();
     if (std::none_of(solids.begin(), solids.end(), [](const Solid& solid) { return solid.isSharp(); })) return;
     sharpElement_.resize(mesh_.nElements, SharpElement::None);
+    markOthers(solids);
     const auto add = [&](int e)
     {
         if (sharpElement_[e] != SharpElement::None) return;
@@ -87,6 +88,22 @@ void CoverBuilder::addSharpElements(const Cover& cover, const std::vector<Solid>
             for (int j = graph_.nodeElementStart[i]; cover.nearestSolid[i] == static_cast<int>(s) && j < graph_.nodeElementStart[i + 1]; ++j)
                 if (isNear(cover.distance, graph_.nodeElement[j])) add(graph_.nodeElement[j]);
         }
+}
+
+/// Nodes that moving solids other than sharp ones are near: these may have a part, hidden by a thin body that is nearer, in an element none of whose nodes is nearest to them.
+void CoverBuilder::markOthers(const std::vector<Solid>& solids)
+{
+    isNearOther_.assign(mesh_.nNodes, 0);
+    for (std::size_t s = 0; s < solids.size(); ++s)
+        for (std::size_t k = 0; !solids[s].isSharp() && !solids[s].isCutOnce() && k < samples_[s].size(); ++k) isNearOther_[samples_[s][k].node] = 1;
+}
+
+/// Nothing is cut in the element but sharp solids and structures at rest.
+bool CoverBuilder::isOfSharpAlone(const Others& others, int element) const
+{
+    const int* nodes = nodesOf(element);
+    const bool areNone = others.n == 0 || (others.n == 1 && others.solid[0] < 0);
+    return areNone && !std::all_of(nodes, nodes + mesh_.dim + 1, [&](int i) { return isNearOther_[i] != 0; });
 }
 
 /// Other solids than sharp ones that are nearest to a node of the element; those at rest in the mesh's cover count as one: -1.
@@ -196,9 +213,8 @@ void CoverBuilder::cutElementOfSolids(Cover& cover, const std::vector<Solid>& so
     const Others others = othersIn(cover, solids, element);
     if (others.n > 0) facesOf<dim>(others, solids, element, cutting_);
     solidOf.resize(cutting_.end.size(), others.n == 1 ? others.solid[0] : -1);
-    const bool isOfSharp = others.n == 0 || (others.n == 1 && others.solid[0] < 0);
     const Separation are = separation<dim>(solidOf, element);
-    if (isOfSharp && sharpElement_[element] == SharpElement::Apart && are.solidsApart) sharpElement_[element] = SharpElement::Clear;
+    if (sharpElement_[element] == SharpElement::Apart && are.solidsApart && isOfSharpAlone(others, element)) sharpElement_[element] = SharpElement::Clear;
     if (cutting_.isApart()) return;
     cutPatchFaces<dim>(cover, element, cutting_);
     const EdgeCut<dim> cut = cutAtEdge<dim>(cutting_, element, are.partsApart);

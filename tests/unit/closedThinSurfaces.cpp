@@ -99,6 +99,39 @@ TEST_CASE("bodies thinner than an element, several in one, cover something of ea
     }
 }
 
+// Thin bodies hide a thick one from the nodes: it has parts in elements none of whose nodes is nearest to it.
+TEST_CASE("a body of several elements among thin ones has a closed surface")
+{
+    for (const int dim : {2, 3})
+    {
+        const int n = dim == 2 ? 24 : 12;
+        const double h = 2.0 / n, size = 2.6 * h;
+        const CoverScene scene(dim, n);
+        CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+        for (int k = 0; k < 12; ++k)
+        {
+            const double thickness = 0.2 * h, by = 0.5 * (size + thickness) + 0.05 * h * (k % 3 - 0.5);     // overlaps and gaps
+            const Vec3 middle(0.013 * k, 0.02 - 0.007 * k, 0.01 * k);
+            const Eigen::Quaterniond turn(Eigen::AngleAxisd(0.13 * k, dim == 2 ? Vec3::UnitZ() : Vec3(1, 2, 3).normalized()));
+            std::vector<Solid> solids = {makeSolid(makeBox(Vec3::Zero(), {size, size, dim == 2 ? 4 : size}), middle, Solid::Kind::Free)};
+            for (int side = -1; side <= 1; side += 2)
+                for (int j = -1; j <= 1; ++j)
+                {
+                    const auto bar = makeBox(Vec3::Zero(), {thickness, thickness, dim == 2 ? 4 : 2 * size});
+                    solids.push_back(makeSolid(bar, middle + turn * Vec3(side * by, 0.3 * size * j, 0), Solid::Kind::Free));
+                }
+            for (Solid& solid : solids) solid.pose.orientation = turn;
+            const Cover& cover = builder.buildExactVolume(solids);
+            for (std::size_t s = 0; s < solids.size(); ++s)
+            {
+                double covered;
+                const Eigen::Matrix<double, 4, 3> moments = surfaceMoments(scene, cover, static_cast<int>(s), covered);
+                for (int d = 0; d < dim; ++d) CHECK(moments(0, d) == within(0, 1e-12 * std::pow(h, dim - 1)));
+            }
+        }
+    }
+}
+
 TEST_CASE("round bodies and polyhedra thinner than an element have their volume and centre, whatever frame they are given in")
 {
     const CoverScene scene(3, 12);
