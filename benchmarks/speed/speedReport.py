@@ -122,7 +122,8 @@ def _plot(rows, file):
 def write(rows, results):
     if not rows:
         return
-    last = rows[-1]
+    last, logs = rows[-1], _logs(rows)
+    rows = [r for r in rows if r["scene"] != "log carpet"]
     parts = ["# Speed", "Processor time of one process per step of fixed length, without start-up and first steps; medians over the repeats, the\n"
              "solvers in turn. Iterations: ours of the whole system, interFoam's of the pressure, three correctors together.",
              "Regenerate: `benchmarks/speed/run`; this page alone, from the rows there are: `benchmarks/speed/run --report`.\n"
@@ -130,7 +131,7 @@ def write(rows, results):
              "## A step beside interFoam's", _comparison(rows),
              "## Phases", "Processor us per node and step:", _phases(rows, False), "Share of the step [%]:", _phases(rows, True),
              "## Growth and memory", "Points: nodes (interFoam: cells).", _growth(rows),
-             *(["## Number of logs", "The log carpet: processor seconds a step, in all and by phase, and what a log adds.", _logs(rows)] if _logs(rows) else [])]
+             *(["## Number of logs", "The log carpet: processor seconds a step, in all and by phase, and what a log adds.", logs] if logs else [])]
     with open(os.path.join(results, "speed.md"), "w", encoding="utf-8") as out:
         out.write("\n\n".join(part for part in parts if part) + "\n")
     _plot(rows, os.path.join(results, "speed.png"))
