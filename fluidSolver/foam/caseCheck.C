@@ -70,7 +70,8 @@ void printCost(const MeshCounts& counts, const SimplexMesh& mesh, const SceneCou
     const double bytes = mesh.dim == 2 ? cost.bytesPerNode2d : cost.bytesPerNode3d;
     const double micro = mesh.dim == 2 ? cost.microsecondsPerNode2d : cost.microsecondsPerNode3d;
     const double seconds = 1e-6*(micro*counts.largestShare + cost.microsecondsPerSphere*scene.demSpheres);
-    line("memory", text("about ", std::ceil(bytes*counts.nodes/1e6), " MB on ", ranks, ranks > 1 ? " ranks" : " rank"));
+    const double all = cost.bytesPerRank*ranks + bytes*counts.nodes + cost.bytesPerSphere*scene.demSpheres;
+    line("memory", text("about ", std::ceil(all/1e6), " MB on ", ranks, ranks > 1 ? " ranks" : " rank"));
     line("time per step", text("about ", std::round(seconds*1000)/1000, " s (estimate for one core per rank)"));
 }
 
