@@ -319,9 +319,8 @@ template <int dim>
 EdgeCut<dim> cutSimplexAtEdge(const double* distances, int nFaces, double volume, const double* vertices, const double* gradN)
 {
     EdgeCut<dim> cut = EdgeCutter<dim>(distances, &nFaces, 1, volume, vertices, gradN).cutSolid();
-    if (volume - cut.volume < leastRest * volume) cut = EdgeCutter<dim>(distances, &nFaces, 1, volume, vertices, gradN).cut();
-    else takeRest(cut, volume);
-    mergePieces<dim>(cut.facets);
+    if (volume - cut.volume < leastRest * volume) return EdgeCutter<dim>(distances, &nFaces, 1, volume, vertices, gradN).cut();
+    takeRest(cut, volume);
     return cut;
 }
 
