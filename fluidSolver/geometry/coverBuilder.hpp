@@ -119,6 +119,9 @@ private:
     /// Joined: with several others than sharp ones, which are cut as one.
     enum class SharpElement : char { None, Alone, Apart, Clear, Joined };
 
+    /// How a solid alone cuts an element: not, as a whole, by its faces, by its distance at the nodes.
+    enum class AloneCut : char { None, Whole, ByFaces, ByDistance };
+
     /// In one element: nothing overlaps or touches.
     struct Separation { bool partsApart, solidsApart; };
 
@@ -160,6 +163,7 @@ private:
     template <int dim> void addAlone(OwnCut& own, const Solid& solid, int element) const;
     template <class Visit, class Accept> void forEachLocalAlone(const Solid& solid, const std::vector<Sample>& samples, Visit visit, Accept accept);
     template <class Visit, class Accept> void forEachElementAlone(const Solid& solid, const std::vector<Sample>& samples, Visit visit, Accept accept);
+    template <int dim> AloneCut howCutAlone(int element, double* distance) const;
     template <int dim, class Visit> void visitCutAlone(const Solid& solid, int element, Visit visit) const;
     void findCovered(Cover& cover, const std::vector<Solid>& solids);
     void findSharedNodes(Cover& cover);
@@ -254,7 +258,7 @@ private:
     double longest_ = 0;                // element length of the whole mesh
     std::vector<SharpPart> sharpParts_;   // by element
     std::vector<int> sharpElements_;    // with sharp parts or nodes nearest to sharp solids
-    mutable std::vector<SharpElement> sharpElement_;  // nElements, empty while there are none
+    mutable std::vector<SharpElement> sharpElement_;  // nElements, empty while there are none; which are clear is found as they are cut
     std::vector<char> isNearOther_;     // nNodes, see markOthers()
     std::vector<int> coveredVolumeOf_;  // nElements, empty at first: position in cover_.coveredVolumes, -1 outside of findCovered()
     std::vector<int> sharedNodes_;      // of elements with nodes of several solids
@@ -307,21 +311,27 @@ void CoverBuilder::forEachElementAlone(const Solid& solid, const std::vector<Sam
     forEachLocalAlone(solid, samples, [&](int e) { if (mesh_.isOwnedElement[e] || e < mesh_.nInnerElements) visit(e); }, accept);
 }
 
+/// distance: dim+1, of the nodes, within forEachLocalAlone().
+template <int dim>
+CoverBuilder::AloneCut CoverBuilder::howCutAlone(int element, double* distance) const
+{
+    for (int a = 0; a <= dim; ++a) distance[a] = aloneDistance_[nodesOf(element)[a]];
+    const auto nInside = std::count_if(distance, distance + dim + 1, [](double d) { return d < 0; });
+    const bool isByFaces = isAtEdge(aloneFace_, element);
+    if (!isNear(aloneDistance_, element)) return AloneCut::None;
+    if (nInside == dim + 1 && (!isByFaces || !hasSeveralParts(aloneFace_, element) || isDeepIn(aloneDistance_, element))) return AloneCut::Whole;
+    return isByFaces ? AloneCut::ByFaces : nInside > 0 ? AloneCut::ByDistance : AloneCut::None;
+}
+
 /// visit(moments of the fluid part, facets, their number) of an element that the solid has a part in, within forEachElementAlone().
 template <int dim, class Visit>
 void CoverBuilder::visitCutAlone(const Solid& solid, int element, Visit visit) const
 {
     double distance[dim + 1];
-    int nSolid = 0;
-    for (int a = 0; a <= dim; ++a)
-    {
-        distance[a] = aloneDistance_[nodesOf(element)[a]];
-        if (distance[a] < 0) ++nSolid;
-    }
-    if (*std::max_element(distance, distance + dim + 1) >= farDistance) return;
+    const AloneCut how = howCutAlone<dim>(element, distance);
     const SimplexFacet<dim>* none = nullptr;
-    if (nSolid == dim + 1 && (!isAtEdge(aloneFace_, element) || !hasSeveralParts(aloneFace_, element) || isDeepIn(aloneDistance_, element))) visit(SimplexMoments<dim>{}, none, 0);
-    else if (isAtEdge(aloneFace_, element))
+    if (how == AloneCut::Whole) visit(SimplexMoments<dim>{}, none, 0);
+    else if (how == AloneCut::ByFaces)
     {
         cutting_.clear();
         addCuttingFaces<dim>(solid, element, cutting_);
@@ -329,7 +339,7 @@ void CoverBuilder::visitCutAlone(const Solid& solid, int element, Visit visit) c
         const EdgeCut<dim> cut = cutAtEdge<dim>(cutting_, element);
         visit(cut, cut.facets.data(), static_cast<int>(cut.facets.size()));
     }
-    else if (nSolid > 0)
+    else if (how == AloneCut::ByDistance)
     {
         const SimplexCut<dim> cut = cutSimplex<dim>(distance, mesh_.volume[element], verticesOf<dim>(element).data(),
             &mesh_.gradN[std::size_t(element) * (dim + 1) * dim]);

@@ -33,12 +33,10 @@ bool CoverBuilder::hasPart(const Solid& solid, int element)
 template <int dim>
 bool CoverBuilder::hasPartBetweenNodes(const Solid& solid, int element)
 {
-    if (!isNear(aloneDistance_, element)) return false;
     double distance[dim + 1];
-    for (int a = 0; a <= dim; ++a) distance[a] = aloneDistance_[nodesOf(element)[a]];
-    const auto nInside = std::count_if(distance, distance + dim + 1, [](double d) { return d < 0; });
-    if (nInside == dim + 1 && !hasSeveralParts(aloneFace_, element)) return true;
-    if (!isAtEdge(aloneFace_, element)) return nInside > 0 && hasSolidPart<dim>(distance, 1);
+    const AloneCut how = howCutAlone<dim>(element, distance);
+    if (how == AloneCut::ByDistance) return hasSolidPart<dim>(distance, 1);
+    if (how != AloneCut::ByFaces) return how == AloneCut::Whole;
     cutting_.clear();
     addCuttingFaces<dim>(solid, element, cutting_);
     for (std::size_t part = 0; part < cutting_.end.size(); ++part)

@@ -100,4 +100,14 @@ inline Eigen::Matrix<double, 4, 3> surfaceMoments(const CoverScene& scene, const
     return moments;
 }
 
+/// How far the body's surface and what others cover of it are from a closed one around this volume [m^(dim-1), m^dim].
+inline double closureError(const CoverScene& scene, const Cover& cover, int solid, double volume)
+{
+    double covered, error = 0;
+    const Eigen::Matrix<double, 4, 3> moments = surfaceMoments(scene, cover, solid, covered);
+    for (int d = 0; d < scene.mesh.dim; ++d)
+        for (int k = 0; k <= scene.mesh.dim; ++k) error = std::max(error, std::abs(moments(k, d) + (k == d + 1 ? volume : 0)));
+    return error;
+}
+
 } // namespace flotsam

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <random>
+#include <vector>
 
 using namespace flotsam;
 
@@ -43,11 +45,8 @@ TEST_CASE("bodies thinner than an element that touch cut out their volumes, and 
                 largest[hasOthers] = std::max(largest[hasOthers], largestHole(scene, cover, h));
                 for (int s = 0; s < 4; ++s)
                 {
-                    double covered;
-                    const Eigen::Matrix<double, 4, 3> moments = surfaceMoments(scene, cover, s, covered);
                     const double volume = builder.exactVolume(solids[s]);
-                    for (int c = 0; c < dim; ++c)
-                        for (int r = 0; r <= dim; ++r) missing = std::max(missing, std::abs(moments(r, c) + (r == c + 1 ? volume : 0)) / volume);
+                    missing = std::max(missing, closureError(scene, cover, s, volume) / volume);
                 }
             }
         }
@@ -85,18 +84,74 @@ TEST_CASE("bodies thinner than an element, several in one, cover something of ea
                 CHECK(scene.halo.any(!cover.coveredFacets.empty()) == (gap < 0));
                 CHECK(scene.halo.any(!cover.coveredVolumes.empty()) == (gap < 0));
                 CHECK(largestHole(scene, cover, h) < (gap == -1e-6 ? 1e-7 : 1e-12));    // of so thin an overlap pieces are negligible
-                for (int s = 0; s < 3; ++s)
-                {
-                    double covered;
-                    const Eigen::Matrix<double, 4, 3> moments = surfaceMoments(scene, cover, s, covered);
-                    const double volume = builder.exactVolume(solids[s]);
-                    for (int c = 0; c < dim; ++c)
-                        for (int r = 0; r <= dim; ++r) CHECK(moments(r, c) == within(r == c + 1 ? -volume : 0, 1e-11 * volume));
-                }
-                const double volumes = 3 * builder.exactVolume(solids[0]);
-                if (gap > 0) CHECK(cover.solidVolume[0] + cover.solidVolume[1] + cover.solidVolume[2] == near(volumes, 1e-11));
+                const double volume = builder.exactVolume(solids[0]);
+                for (int s = 0; s < 3; ++s) CHECK(closureError(scene, cover, s, volume) < 1e-11 * volume);
+                if (gap > 0) CHECK(cover.solidVolume[0] + cover.solidVolume[1] + cover.solidVolume[2] == near(3 * volume, 1e-11));
             }
     }
+}
+
+namespace
+{
+
+/// Bodies of 0.25 to 0.25 + 2 `more` elements at random places and attitudes, close to each other or into each other, every fifth heap with a structure.
+std::vector<Solid> heap(int dim, double h, int number, double more)
+{
+    std::mt19937 generator(1000 * dim + number);
+    std::uniform_real_distribution<double> signedUnit(-1, 1);
+    const auto random = [&] { return signedUnit(generator); };
+    const int nBodies = 2 + number % 9;
+    const Vec3 plane(1, 1, dim == 2 ? 0 : 1);
+    const Vec3 middle = 0.4 * plane.cwiseProduct(Vec3(random(), random(), random()));
+    std::vector<Solid> solids;
+    for (int b = 0; b < nBodies; ++b)
+    {
+        const double d = h * (0.25 + more * (1 + random())), length = h * (2 + 2 * random()) + d, kind = random();
+        std::shared_ptr<const Shape> shape;
+        if (dim == 2) shape = kind < 0 ? makeCylinder({0, 0, -2}, {0, 0, 2}, 0.5 * d) : makeBox(Vec3::Zero(), {length, d, 4});
+        else if (kind < -0.6) shape = makeSphere(Vec3::Zero(), 0.5 * d);
+        else if (kind < -0.2) shape = makeCylinder({-0.5 * length, 0, 0}, {0.5 * length, 0, 0}, 0.5 * d);
+        else if (kind < 0.2) shape = makeCapsule({-0.5 * length, 0, 0}, {0.5 * length, 0, 0}, 0.5 * d);
+        else shape = makeBox(Vec3::Zero(), {length, d, kind < 0.6 ? d : length});
+        const Vec3 place = middle + h * std::sqrt(nBodies) * plane.cwiseProduct(Vec3(random(), random(), random()));
+        solids.push_back(makeSolid(shape, place, number % 5 == 4 && b == 0 ? Solid::Kind::Fixed : Solid::Kind::Free));
+        const Vec3 axis = dim == 2 ? Vec3::UnitZ() : Vec3(random(), random(), 2 + random()).normalized();
+        solids.back().pose.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(number % 4 == 0 ? 0 : random(), axis));
+    }
+    return solids;
+}
+
+struct Holes { int heaps = 0; double largest = 0; };
+
+Holes holesOfHeaps(int dim, double more, int nHeaps)
+{
+    const int n = dim == 2 ? 24 : 12;
+    const double h = 2.0 / n;
+    const CoverScene scene(dim, n);
+    CoverBuilder builder(scene.mesh, scene.graph, scene.halo);
+    Holes holes;
+    for (int k = 0; k < nHeaps; ++k)
+    {
+        std::vector<Solid> solids = heap(dim, h, k, more);
+        const double hole = largestHole(scene, builder.buildExactVolume(solids), h);
+        holes.heaps += hole > 1e-9;
+        holes.largest = std::max(holes.largest, hole);
+    }
+    std::printf("%dD: bodies of 0.25 to %g elements: %d of %d heaps with holes, at most %.1e\n", dim, 0.25 + 2 * more, holes.heaps, nHeaps, holes.largest);
+    return holes;
+}
+
+} // namespace
+
+TEST_CASE("random heaps of bodies thinner than an element and a half have closed surfaces")
+{
+    for (const int dim : {2, 3}) CHECK(holesOfHeaps(dim, 0.5, 60).largest < 1e-9);
+}
+
+// The limit of docs/numerics, 3.3: two thick bodies and a thin one in one element.
+TEST_CASE("random heaps of thin and thick bodies" * doctest::skip())
+{
+    for (const int dim : {2, 3}) holesOfHeaps(dim, 0.95, 1000);
 }
 
 // Thin bodies hide a thick one from the nodes: it has parts in elements none of whose nodes is nearest to it.
@@ -146,11 +201,8 @@ TEST_CASE("round bodies and polyhedra thinner than an element have their volume 
         std::vector<Solid> solids = {makeSolid(shape, {0.03, -0.02, 0.04}, Solid::Kind::Free)};
         const Cover& cover = builder.buildExactVolume(solids);
         CHECK(solids[0].isThin);
-        double covered;
-        const Eigen::Matrix<double, 4, 3> moments = surfaceMoments(scene, cover, 0, covered);
         const double volume = shape->moments().volume;
-        for (int d = 0; d < 3; ++d)
-            for (int k = 0; k < 4; ++k) CHECK(moments(k, d) == within(k == d + 1 ? -volume : 0, 1e-12 * volume / r));
+        CHECK(closureError(scene, cover, 0, volume) < 1e-12 * volume / r);
         CHECK(cover.solidVolume[0] == near(volume, 1e-12));
     }
 }
