@@ -77,6 +77,7 @@ flotsam_test(cutManufactured verification SOURCES verification/cutManufactured.c
 flotsam_test(cutManufactured3D verification SOURCES verification/cutManufactured3D.cpp LIBRARIES flotsam_flow_support)
 flotsam_test(cutPositions verification SOURCES verification/cutPositions.cpp LIBRARIES flotsam_flow_support)
 flotsam_test(timeOrder verification SOURCES verification/timeOrder.cpp LIBRARIES flotsam_flow_support)
+flotsam_test(carriedRemainder verification SOURCES verification/carriedRemainder.cpp LIBRARIES flotsam_flow_support RANKS 1 2)
 flotsam_test(taylorGreen verification SOURCES verification/taylorGreen.cpp LIBRARIES flotsam_flow_support RANKS 1 2)
 flotsam_test(cavity verification SOURCES verification/cavity.cpp LIBRARIES flotsam_flow_support RANKS 1 2)
 flotsam_test(addedMass verification SOURCES verification/addedMass.cpp LIBRARIES flotsam_flow_support)

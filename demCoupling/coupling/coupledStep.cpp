@@ -12,7 +12,7 @@ namespace
 {
 
 constexpr double strayElements = 2;     // a rebound at maxBodyCo 0.5 takes a body one element from its prediction
-constexpr double poorResidual = 100;    // times the tolerance: a solve that ends above fails the step
+constexpr double poorResidual = 30; // times the tolerance: a solve that ends above fails the step
 
 CouplingControls couplingControls(const FluidProperties& fluid, const NumericsControls& n)
 {
@@ -286,7 +286,7 @@ CoupledStep::Arrays CoupledStep::save() const
 
 CoupledStep::Arrays CoupledStep::saveOfProcess() const
 {
-    Arrays arrays{{"massFluxes", fluid_.massFluxes().records()}};
+    Arrays arrays{{"massFluxes", fluid_.massFluxes().records()}, {"remainder", fluid_.state().remainder}};
     if (!scene_.isEmpty()) arrays["ghostFluxes"] = fluid_.ghostFluxes();
     return arrays;
 }
@@ -302,7 +302,12 @@ void CoupledStep::restore(FlowState state, const Arrays& arrays, Fields fields)
         return at->second;
     };
     if (fields != Fields::Cells) fluid_.setKeptLiquid(array("liquid").at(0));
-    if (fields == Fields::Exact) fluid_.massFluxes().setRecords(array("massFluxes"));
+    if (fields == Fields::Exact)
+    {
+        fluid_.massFluxes().setRecords(array("massFluxes"));
+        const auto left = arrays.find("remainder"); // states of older versions have none
+        if (left != arrays.end()) fluid_.state().remainder = left->second;
+    }
     if (scene_.isEmpty()) return;
     scene_.restore(array("solids"));
     if (fields == Fields::Exact) fluid_.setGhostFluxes(array("ghostFluxes"));

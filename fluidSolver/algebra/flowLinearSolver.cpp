@@ -19,7 +19,7 @@ namespace
 constexpr double startReduction = 0.02; // of the residual by a solve that starts from values extrapolated in time
 constexpr double repeatReduction = 0.1; // by one that follows a change of the contact load
 constexpr int patience = 30;            // iterations: more say that an old hierarchy, or diagonal blocks of a viscous fluid, are not good enough
-constexpr double negligible = 1e-3; // of the tolerance: a residual that needs no solve
+constexpr double negligible = 3e-4; // of the tolerance: a residual that needs no solve
 
 /// Iterations of a trial, which led from `first` to `last`, had it gone on down to `wanted` at this rate; at most `most`.
 int iterationsTo(double wanted, int iterations, double first, double last, int most)
@@ -222,6 +222,11 @@ void FlowLinearSolver::forgetPreconditioner()
 {
     impl_->system.pressure().forget();
     impl_->system.choice().forget();
+}
+
+void FlowLinearSolver::remainder(const std::vector<double>& x, const std::vector<double>& q, std::vector<double>& rows)
+{
+    impl_->system.remainder(x, q, rows);
 }
 
 void FlowLinearSolver::setSystem(const FlowSystem& system)

@@ -75,6 +75,7 @@ struct FlowSystem
     std::vector<char> isPressureFixed;          ///< nNodes
     std::vector<char> isActive;                 ///< nNodes: has a fluid element
     std::vector<char> isLight;                  ///< nOwned: beside elements far denser than the node itself (gas beside water)
+    std::vector<double> inertia;                ///< nOwned: of the fluid around the node, over the time step [kg/s; 2D: kg/(m s)]
     std::vector<double> dualVolume;             ///< nOwned: fluid part [m^dim]
     int nLevels = 0;                            ///< groups of basins without a prescribed pressure that share one mean (all ranks)
     std::vector<int> level;                     ///< nNodes: the group of a node, -1: its pressure has no mean to keep; empty: no groups

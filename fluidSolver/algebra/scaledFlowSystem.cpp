@@ -291,23 +291,46 @@ void ScaledFlowSystem::subtractLevel(double* r)
     roundOff_ = relative*std::sqrt(halo_.sum(square));
 }
 
+/// rows = right-hand side minus product, unscaled and projected.
+void ScaledFlowSystem::residualRows(const std::vector<double>& x, const std::vector<double>& q, double* rows)
+{
+    const std::size_t n = std::size_t(mesh_.nOwned)*B_;
+    const FlowOperator op = product();
+    op.fluidRows(x.data(), system_->solids.empty() ? nullptr : q.data(), rows);
+    for (std::size_t i = 0; i < n; ++i) rows[i] = system_->rhs[i] - rows[i];
+    addPressureSources(rows);
+    op.project(rows);
+    unbalancedVolume_ = balanceContinuity(rows);
+}
+
+/// Inertia alone outlasts the step: what a solve leaves of stiff rows (slivers held by ghost penalty, viscous layers, walls) is an error of that step only, and carried it would be
+/// another one of the next. The share is that of inertia in the row's diagonal.
+void ScaledFlowSystem::remainder(const std::vector<double>& x, const std::vector<double>& q, std::vector<double>& rows)
+{
+    rows.resize(std::size_t(mesh_.nOwned)*B_);
+    residualRows(x, q, rows.data());
+    for (int i = 0; i < mesh_.nOwned; ++i)
+    {
+        const std::size_t k = std::size_t(i)*B_;
+        const double share = std::min(1.0, system_->inertia[i]*scale_[k]*scale_[k]);
+        for (int d = 0; d < B_ - 1; ++d) rows[k + d] *= share;
+    }
+}
+
 double ScaledFlowSystem::residual(const std::vector<double>& x, const std::vector<double>& velocity, double* r)
 {
     const std::size_t n = std::size_t(mesh_.nOwned)*B_;
     const int nd = system_->nDof;
     const FlowOperator op = product();
-    double* rows = local_.data(); // free here
-    op.fluidRows(x.data(), system_->solids.empty() ? nullptr : velocity.data(), rows);
     std::copy(system_->rhs.begin(), system_->rhs.end(), r);
     addPressureSources(r);
-    for (std::size_t i = 0; i < n; ++i) rows[i] = r[i] - rows[i];
     level_ = prescribedLevel(x);
     subtractLevel(r);
     op.project(r);
     double square = 0;
     for (std::size_t i = 0; i < n; ++i) square += r[i]*scale_[i]*r[i]*scale_[i];
-    op.project(rows);
-    unbalancedVolume_ = balanceContinuity(rows);
+    double* rows = local_.data(); // free here
+    residualRows(x, velocity, rows);
     for (std::size_t i = 0; i < n; ++i) r[i] = rows[i]*scale_[i];
     if (!solids_.isEmpty())
     {

@@ -36,6 +36,8 @@ public:
     /// Scaled residual r of (x: nNodes*(dim+1) with its halo up to date, q: nDof per solid); returns the norm of the scaled right-hand side, of pressures over the mean of
     /// the prescribed ones: a constant that is added to all of them changes nothing.
     double residual(const std::vector<double>& x, const std::vector<double>& q, double* r);
+    /// See FlowLinearSolver.
+    void remainder(const std::vector<double>& x, const std::vector<double>& q, std::vector<double>& rows);
     /// Of the last residual(): volume that surfaces sweep in basins without a prescribed pressure beyond what these can give [m^dim/s].
     double unbalancedVolume() const { return unbalancedVolume_; }
     /// Of the last residual(): what round-off of the pressures' level leaves in it.
@@ -62,6 +64,7 @@ private:
     void addPressureSources(double* r) const;
     double prescribedLevel(const std::vector<double>& x) const;
     void subtractLevel(double* r);
+    void residualRows(const std::vector<double>& x, const std::vector<double>& q, double* rows);
     void preconditionUnscaled(const double* r);
     void finishProduct(const FlowOperator& op, double* y, const double* ofPressure);
     double balanceContinuity(double* y);

@@ -223,7 +223,7 @@ inline void FlowEquation::addElements(const int* e, const ElementData<D, Real>& 
             rhs[D] += lane(source.continuity, l);
             system_.dualVolume[i] += lane(data.first[a], l);
             defect_[i] += lane(defect, l);
-            mass_[i] += lane(mass, l);
+            system_.inertia[i] += lane(mass, l);
             system_.pressureMass[i] += lane(pressureMass, l);
             carriesMass_[i] |= data.isVarying;
             system_.isLight[i] |= nodal_.rho[i] < lightDensity*lane(data.rho, l);
@@ -239,7 +239,7 @@ inline void FlowEquation::assembleElementsIn()
     defect_.assign(mesh_.nOwned, 0.0);
     carriesMass_.assign(mesh_.nOwned, 0);
     system_.isLight.assign(mesh_.nOwned, 0);
-    mass_.assign(mesh_.nOwned, 0.0);
+    system_.inertia.assign(mesh_.nOwned, 0.0);
     swept_.assign(mesh_.nOwned, 0.0);
     isStarted_.assign(mesh_.nOwned, 0);
     double viscous[2] = {}; // elements; sum of their mu dt/(rho h^2)
@@ -309,7 +309,7 @@ void FlowEquation::keepSweptMass()
     for (int i = 0; i < mesh_.nOwned; ++i)
     {
         const double removed = carriesMass_[i] ? std::max(0.0, -defect_[i]) : 0; // by removeMassDefect()
-        const double kept = 2*swept_[i] - mass_[i] - removed;
+        const double kept = 2*swept_[i] - system_.inertia[i] - removed;
         if (kept <= 0) continue;
         addVelocity<D>(graph_.diagonal[i], kept);
         for (int d = 0; d < D; ++d) system_.rhs[std::size_t(i)*(D + 1) + d] += kept*step_.state->u[std::size_t(i)*D + d];

@@ -168,7 +168,7 @@ private:
     std::vector<int> layerSolid_;               // nNodes: whose share of the layers' content is 1 there
     std::vector<int> placeInSolid_;             // nNodes: in the coupling being assembled, else -1
     std::vector<double> ownLoads_;              // nDof of each solid: of the fluid besides the unknowns
-    std::vector<double> mass_, swept_;          // owned nodes: inertia of the fluid there; what moving surfaces take from it, a half [kg/s]
+    std::vector<double> swept_;                 // owned nodes: what moving surfaces take from FlowSystem::inertia, a half [kg/s]
     std::vector<double> sweptOfCut_;            // that half at the corners of every cut element, negative where fluid appears
     std::vector<char> carriesMass_, isOpen_;    // nodes of varying elements; nodes on open patches
     std::vector<char> isPatchPressureFixed_;    // nNodes: by a patch

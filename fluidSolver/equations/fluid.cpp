@@ -11,6 +11,13 @@
 namespace flotsam
 {
 
+namespace
+{
+
+constexpr double carriedVolume = 0.5;   // share of what a solve has left of continuity: all of it makes the pressure jump (numerics, 5.10)
+
+} // namespace
+
 Fluid::Fluid(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& fluid, const NumericsControls& controls,
     const std::vector<BoundaryPatch>& patches)
 :   mesh_(mesh), halo_(halo), graph_(mesh), fluid_(fluid), controls_(controls), patches_(patches), values_(patches.size()),
@@ -161,9 +168,25 @@ void Fluid::assemble()
     step.transport = fluid_.isTwoPhase && !supg_ ? &transport_ : nullptr;
     step.massFluxes = step.transport && controls_.surfaceTimeOrder == 2 ? &massFluxes_ : nullptr;
     equation_.assemble(step);
+    if (controls_.carryRemainder) carryRemainder();
     equation_.system().isNewMatrix = true;
     equation_.system().isFirst = isFirstStep();
     setFirstGuess();
+}
+
+/// Impulse and volume that the last solve has left go into this one's right-hand side: solves leave the same sign in step after step, and that would add up.
+void Fluid::carryRemainder()
+{
+    std::vector<double>& rhs = equation_.system().rhs;
+    for (std::size_t k = 0; k < state_.remainder.size(); ++k) rhs[k] += state_.remainder[k]/time_.dt;
+}
+
+void Fluid::keepRemainder()
+{
+    std::vector<double>& rows = state_.remainder;
+    solver_.remainder(x_, q_, rows);
+    const std::size_t B = mesh_.dim + 1;
+    for (std::size_t k = 0; k < rows.size(); ++k) rows[k] *= (k % B == B - 1 ? carriedVolume : 1)*time_.dt;
 }
 
 /// Velocity and pressure extrapolated in time (10 to 20 % less time than with the last pressure); solids with the velocity they have.
@@ -275,6 +298,7 @@ void Fluid::keepInlets()
 void Fluid::endStep()
 {
     const int dim = mesh_.dim, B = dim + 1;
+    if (controls_.carryRemainder) keepRemainder();
     equation_.fineScale(x_, state_.fineScaleOld);   // before the time levels move on: of the step's own residual, that of the continuity rows
     std::swap(state_.fineScale, state_.fineScaleOld);
     std::swap(state_.u, state_.uOld);

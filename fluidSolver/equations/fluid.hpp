@@ -114,6 +114,8 @@ private:
     void findBasins(const Cover* cover);
     void setPocketPressures();
     void setFirstGuess();
+    void carryRemainder();
+    void keepRemainder();
     TransportReport advancePhase(double dt);
     TransportReport transportPhase(double dt, const std::vector<double>& u, const std::vector<double>& fine);
     double levelTolerance() const;

@@ -118,7 +118,7 @@ Counts withoutBodies(int dim, int n)
         take(counts.end);
         heap.counts = false;
         REQUIRE(report.hasConverged);
-        if (k < first) continue;
+        if (k < first || report.rebuiltPreconditioner) continue;    // a new hierarchy has its own
         counts.all.push_back(heap.calls);
         counts.bytes.push_back(double(heap.bytes)/mesh.nNodes);
     }
