@@ -40,8 +40,8 @@ public:
     /// enough: residual over the right-hand side to stop at when that is more than the tolerances ask for (a trial, which another solve follows).
     SolveReport solve(std::vector<double>& x, std::vector<double>& q, double enough = 0);
 
-    /// rows (nOwned*(dim+1)): what (x, q) leaves of momentum, as far as the rows are inertia [N; 2D: N/m], and of continuity [m^dim/s]; nothing where velocity or
-    /// pressure are prescribed.
+    /// rows (nOwned*(dim+1)): of what (x, q) leaves of momentum [N; 2D: N/m] and continuity [m^dim/s] that which a next step has to make up for (numerics, 5.10);
+    /// nothing where velocity or pressure are prescribed.
     void remainder(const std::vector<double>& x, const std::vector<double>& q, std::vector<double>& rows);
 
     /// The next system gets a new preconditioner, whatever pays: what comes then depends on the state alone.

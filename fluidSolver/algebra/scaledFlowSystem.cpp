@@ -83,6 +83,8 @@ void ScaledFlowSystem::renewHierarchies()
 namespace
 {
 
+constexpr double carriedVolume = 0.5;   // numerics, 5.10
+
 /// Inverse of the viscous part of the Schur complement. PSPG and ghost terms act beside it and bound the inverse where the fluid part is a sliver.
 double viscousPart(double mass, double pspg) { return 1/(mass + pspg); }
 
@@ -304,7 +306,7 @@ void ScaledFlowSystem::residualRows(const std::vector<double>& x, const std::vec
 }
 
 /// Inertia alone outlasts the step: what a solve leaves of stiff rows (slivers held by ghost penalty, viscous layers, walls) is an error of that step only, and carried it would be
-/// another one of the next. The share is that of inertia in the row's diagonal.
+/// another one of the next. The share is that of inertia in the row's diagonal. Of continuity half: all of it at once makes the pressure jump.
 void ScaledFlowSystem::remainder(const std::vector<double>& x, const std::vector<double>& q, std::vector<double>& rows)
 {
     rows.resize(std::size_t(mesh_.nOwned)*B_);
@@ -314,6 +316,7 @@ void ScaledFlowSystem::remainder(const std::vector<double>& x, const std::vector
         const std::size_t k = std::size_t(i)*B_;
         const double share = std::min(1.0, system_->inertia[i]*scale_[k]*scale_[k]);
         for (int d = 0; d < B_ - 1; ++d) rows[k + d] *= share;
+        rows[k + B_ - 1] *= carriedVolume;
     }
 }
 

@@ -23,7 +23,7 @@ struct FlowState
     std::vector<double> alpha, alphaOld; ///< nNodes phase field, 1 liquid
     std::vector<double> alphaOlder;     ///< set as a step begins: alphaOld until then
     StartLiquid startLiquid;            ///< of a start field that is not yet the phase field's profile
-    std::vector<double> remainder;      ///< nOwned*(dim+1): of what the last solve has left, the impulse and volume that the next one has to make up for [N s; 2D: N s/m; m^dim]; empty: nothing
+    std::vector<double> remainder;      ///< nOwned*(dim+1): of what the last solve has left, force and flux that the next one has to make up for [N; 2D: N/m; m^dim/s]; empty: nothing
     std::vector<double> fineScale, fineScaleOld; ///< nElements*dim: u' = -tau r_m of the last two solves [m/s]
 };
 

@@ -11,13 +11,6 @@
 namespace flotsam
 {
 
-namespace
-{
-
-constexpr double carriedVolume = 0.5;   // share of what a solve has left of continuity: all of it makes the pressure jump (numerics, 5.10)
-
-} // namespace
-
 Fluid::Fluid(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& fluid, const NumericsControls& controls,
     const std::vector<BoundaryPatch>& patches)
 :   mesh_(mesh), halo_(halo), graph_(mesh), fluid_(fluid), controls_(controls), patches_(patches), values_(patches.size()),
@@ -178,15 +171,8 @@ void Fluid::assemble()
 void Fluid::carryRemainder()
 {
     std::vector<double>& rhs = equation_.system().rhs;
-    for (std::size_t k = 0; k < state_.remainder.size(); ++k) rhs[k] += state_.remainder[k]/time_.dt;
-}
-
-void Fluid::keepRemainder()
-{
-    std::vector<double>& rows = state_.remainder;
-    solver_.remainder(x_, q_, rows);
-    const std::size_t B = mesh_.dim + 1;
-    for (std::size_t k = 0; k < rows.size(); ++k) rows[k] *= (k % B == B - 1 ? carriedVolume : 1)*time_.dt;
+    const double steps = state_.dt/time_.dt;
+    for (std::size_t k = 0; k < state_.remainder.size(); ++k) rhs[k] += steps*state_.remainder[k];
 }
 
 /// Velocity and pressure extrapolated in time (10 to 20 % less time than with the last pressure); solids with the velocity they have.
@@ -298,7 +284,7 @@ void Fluid::keepInlets()
 void Fluid::endStep()
 {
     const int dim = mesh_.dim, B = dim + 1;
-    if (controls_.carryRemainder) keepRemainder();
+    if (controls_.carryRemainder) solver_.remainder(x_, q_, state_.remainder);
     equation_.fineScale(x_, state_.fineScaleOld);   // before the time levels move on: of the step's own residual, that of the continuity rows
     std::swap(state_.fineScale, state_.fineScaleOld);
     std::swap(state_.u, state_.uOld);

@@ -115,7 +115,6 @@ private:
     void setPocketPressures();
     void setFirstGuess();
     void carryRemainder();
-    void keepRemainder();
     TransportReport advancePhase(double dt);
     TransportReport transportPhase(double dt, const std::vector<double>& u, const std::vector<double>& fine);
     double levelTolerance() const;

@@ -85,7 +85,7 @@ struct Tank
             fluid.endStep();
             std::vector<double> left = residual(fluid);
             const Norms ofStep = norms(left, 2, halo);
-            for (std::size_t k = 0; k < left.size(); ++k) result.leftSum[k] += left[k]*dt - (before.empty() ? 0 : before[k]);
+            for (std::size_t k = 0; k < left.size(); ++k) result.leftSum[k] += left[k]*dt - (before.empty() ? 0 : before[k]*dt);
             result.largestStep.momentum = std::max(result.largestStep.momentum, ofStep.momentum*dt);
             result.largestStep.volume = std::max(result.largestStep.volume, ofStep.volume*dt);
         }
@@ -130,5 +130,5 @@ TEST_CASE("what solves leave does not add up, and a wave that is solved loosely 
     CHECK(forgotten.sum.momentum > 5*forgotten.largestStep.momentum);
     CHECK(carried.sum.momentum < 2*carried.largestStep.momentum);
     CHECK(carried.sum.volume < 0.5*forgotten.sum.volume);
-    CHECK(tank.difference(carried, exact) < 0.3*tank.difference(forgotten, exact));
+    CHECK(tank.difference(carried, exact) < 0.4*tank.difference(forgotten, exact));
 }
