@@ -306,7 +306,7 @@ void CoupledStep::restore(FlowState state, const Arrays& arrays, Fields fields)
     {
         fluid_.massFluxes().setRecords(array("massFluxes"));
         const auto left = arrays.find("remainder"); // states of older versions have none
-        if (left != arrays.end()) fluid_.state().remainder = left->second;
+        if (left != arrays.end()) fluid_.setRemainder(left->second);
     }
     if (scene_.isEmpty()) return;
     scene_.restore(array("solids"));

@@ -6,6 +6,8 @@
 #include "geometry/meanCover.hpp"
 
 #include <cmath>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 namespace flotsam
@@ -77,6 +79,14 @@ void Fluid::setGhostFluxes(const std::vector<double>& triples)
     ghostFlux_.clear();
     for (std::size_t k = 0; k + 2 < triples.size(); k += 3)
         ghostFlux_.push_back({int(triples[k]), int(triples[k + 1]), triples[k + 2]});
+}
+
+void Fluid::setRemainder(const std::vector<double>& rows)
+{
+    const std::size_t expected = equation_.system().rhs.size();
+    if (!rows.empty() && rows.size() != expected)
+        throw std::runtime_error("restart: the stored 'remainder' holds " + std::to_string(rows.size()) + " values, the mesh has " + std::to_string(expected));
+    state_.remainder = rows;
 }
 
 void Fluid::keepGeometry()
@@ -161,15 +171,22 @@ void Fluid::assemble()
     step.transport = fluid_.isTwoPhase && !supg_ ? &transport_ : nullptr;
     step.massFluxes = step.transport && controls_.surfaceTimeOrder == 2 ? &massFluxes_ : nullptr;
     equation_.assemble(step);
-    if (controls_.carryRemainder) carryRemainder();
+    carryRemainder();
     equation_.system().isNewMatrix = true;
     equation_.system().isFirst = isFirstStep();
     setFirstGuess();
 }
 
+void Fluid::assembleAgain()
+{
+    equation_.assembleAgain();
+    carryRemainder();
+}
+
 /// Impulse and volume that the last solve has left go into this one's right-hand side: solves leave the same sign in step after step, and that would add up.
 void Fluid::carryRemainder()
 {
+    if (!controls_.carryRemainder) return;
     std::vector<double>& rhs = equation_.system().rhs;
     const double steps = state_.dt/time_.dt;
     for (std::size_t k = 0; k < state_.remainder.size(); ++k) rhs[k] += steps*state_.remainder[k];
@@ -284,7 +301,7 @@ void Fluid::keepInlets()
 void Fluid::endStep()
 {
     const int dim = mesh_.dim, B = dim + 1;
-    if (controls_.carryRemainder) solver_.remainder(x_, q_, state_.remainder);
+    if (controls_.carryRemainder) solver_.remainder(x_, q_, state_.remainder); else state_.remainder.clear();
     equation_.fineScale(x_, state_.fineScaleOld);   // before the time levels move on: of the step's own residual, that of the continuity rows
     std::swap(state_.fineScale, state_.fineScaleOld);
     std::swap(state_.u, state_.uOld);

@@ -44,7 +44,7 @@ public:
     void keepGeometry();
     TransportReport beginStep(double dt);
     void assemble();
-    void assembleAgain() { equation_.assembleAgain(); }     ///< the same system
+    void assembleAgain();   ///< the same system
     SolveReport solve(const std::vector<FreeBody>& bodies, double enough = 0);  ///< enough: see FlowLinearSolver::solve()
     void endStep();
     void rejectStep();
@@ -95,6 +95,8 @@ public:
     /// Ghost-penalty fluxes of the last accepted solve as {a, b, flux} triples (part of the state of a run with solids).
     std::vector<double> ghostFluxes() const;
     void setGhostFluxes(const std::vector<double>& triples);
+    /// What the last accepted solve has left for the next step (part of the state): FlowState::remainder. Throws std::runtime_error where that is of another mesh.
+    void setRemainder(const std::vector<double>& rows);
     /// Mass fluxes of the last accepted step, with surfaceTimeOrder 2 (part of the state).
     MassFluxes& massFluxes() { return massFluxes_; }
     const MassFluxes& massFluxes() const { return massFluxes_; }
