@@ -159,6 +159,7 @@ TEST_CASE("a step takes next to nothing from the heap")
             CAPTURE(dim);
             CAPTURE(n);
             const Counts counts = withoutBodies(dim, n);
+            REQUIRE(counts.all.size() >= (nSteps - first)/2); // the others have a new hierarchy
             CHECK(Counts::median(counts.all) <= 5); // lists of what is near the surface, as they grow
             for (const auto* part : {&counts.begin, &counts.assemble, &counts.solve, &counts.end}) CHECK(Counts::median(*part) <= 1);
             CHECK(Counts::median(counts.bytes) < 10);

@@ -85,7 +85,7 @@ struct Tank
             fluid.endStep();
             std::vector<double> left = residual(fluid);
             const Norms ofStep = norms(left, 2, halo);
-            for (std::size_t k = 0; k < left.size(); ++k) result.leftSum[k] += left[k]*dt - (before.empty() ? 0 : before[k]*dt);
+            for (std::size_t k = 0; k < left.size(); ++k) result.leftSum[k] += dt*(left[k] - (before.empty() ? 0 : before[k]));
             result.largestStep.momentum = std::max(result.largestStep.momentum, ofStep.momentum*dt);
             result.largestStep.volume = std::max(result.largestStep.volume, ofStep.volume*dt);
         }
