@@ -2,7 +2,6 @@
 #include "demCoupling/foam/runOutput.H"
 
 #include "foam/dictionaryChecks.H"
-#include "io/fluidRecord.hpp"
 
 #include "OSspecific.H"
 
@@ -39,32 +38,6 @@ std::vector<std::string> structureNames(const BodiesInput& input)
     return names;
 }
 
-/// Names as numbers, one a line: a state has nothing but numbers.
-std::vector<double> codesOf(const std::vector<HistoryMember>& members)
-{
-    std::vector<double> codes;
-    for (const HistoryMember& m : members)
-    {
-        for (const char c : m.name) codes.push_back(static_cast<unsigned char>(c));
-        codes.push_back('\n');
-    }
-    return codes;
-}
-
-std::vector<std::string> namesFrom(const std::vector<double>& codes)
-{
-    std::vector<std::string> names(1);
-    for (const double c : codes)
-    {
-        if (c == '\n') names.emplace_back();
-        else names.back() += char(int(c));
-    }
-    names.pop_back();
-    return names;
-}
-
-constexpr int descriptionSize = 15;
-
 /// What must not change in a run, one row of numbers for each structure and body: mass, volume, bounds of the shape; of structures also the pose given.
 std::vector<double> describe(const BodiesInput& input)
 {
@@ -80,14 +53,6 @@ std::vector<double> describe(const BodiesInput& input)
     return rows;
 }
 
-/// First row that differs by more than what files round, -1: none.
-int differingRow(const std::vector<double>& a, const std::vector<double>& b)
-{
-    for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k)
-        if (std::abs(a[k] - b[k]) > 1e-9*std::max({1e-3, std::abs(a[k]), std::abs(b[k])})) return int(k)/descriptionSize;
-    return -1;
-}
-
 } // namespace
 
 RunOutput::RunOutput(const Foam::Time& runTime, const SimplexMesh& mesh, const Halo& halo, const FluidProperties& fluid, const BodiesInput& bodies,
@@ -97,140 +62,6 @@ RunOutput::RunOutput(const Foam::Time& runTime, const SimplexMesh& mesh, const H
     files_(runTime, mesh, halo), log_(timers, runTime.value(), runTime.endTime().value()), forces_(structureNames(bodies)),
     nStructures_(int(bodies.structures.size())), firstStart_(runTime.value()), thinnestBody_(thinnestBody(bodies))
 {}
-
-/// flotsamFoam wrote this time, but its state was left behind.
-void RunOutput::warnAnew() const
-{
-    Foam::Info<< "Warning: time " << runTime_.timeName() << " has fields of flotsamFoam, but no flotsamState.h5, nor one in its folder 'uniform': the run"
-        << " does not continue, it starts anew from these fields" << (members_.size() > std::size_t(nStructures_) ? ", with the bodies at their places in constant/bodies" : "")
-        << ".\n    To continue, copy that file of the time it was written at to " << runTime_.timeName() << "/uniform.\n" << Foam::endl;
-}
-
-void RunOutput::failForeign() const
-{
-    throw std::runtime_error("restart: flotsamState.h5 of time " + runTime_.timeName() + " was written by other processes, and uniform/flotsamState.h5,"
-        " which any number of them can continue from, is missing there. Continue on the processes that wrote it, put that file back"
-        " (from the same time of processor0 or of the whole case), or remove all flotsamState.h5 of this time to start anew from its fields");
-}
-
-/// Fields alone would begin another run, with the bodies where they once started.
-void RunOutput::checkUnfinished() const
-{
-    if (!halo_.any(Foam::isFile(runTime_.timePath()/"flotsamState.h5.tmp"))) return;
-    throw std::runtime_error("restart: the state of time " + runTime_.timeName() + " was not written to its end (flotsamState.h5.tmp; a full disk?). Remove the folder "
-        + runTime_.timeName() + " to continue from the time before, or that file to start anew from the fields");
-}
-
-bool RunOutput::checkStart() const
-{
-    const StateFiles::Found found = files_.find();
-    if (found == StateFiles::Found::Nothing) checkUnfinished();
-    if (found == StateFiles::Found::Foreign) failForeign();
-    if (found == StateFiles::Found::Own) checkContinued(files_.readOwn());
-    if (found == StateFiles::Found::Shared) checkContinued(files_.readShared());
-    Foam::Info<< "Start at time " << runTime_.timeName() << ": " << (found == StateFiles::Found::Own ? "the stored state continues, exactly" : found == StateFiles::Found::Shared
-        ? "bodies and sums of the stored state continue, the fluid from the written fields" : "anew from the volume fields") << Foam::nl << Foam::endl;
-    return found != StateFiles::Found::Nothing;
-}
-
-bool RunOutput::readState(CoupledStep& step, const FoamFields& fields)
-{
-    switch (files_.find())
-    {
-        case StateFiles::Found::Nothing:
-            checkUnfinished();
-            if (halo_.any(Foam::isFile(runTime_.timePath()/"pointU"))) warnAnew();
-            return false;
-        case StateFiles::Found::Foreign: failForeign();
-        case StateFiles::Found::Own: continueOwn(step, fields); break;
-        case StateFiles::Found::Shared: continueShared(step, fields); break;
-    }
-    return true;
-}
-
-void RunOutput::continueOwn(CoupledStep& step, const FoamFields& fields)
-{
-    RunState state = files_.readOwn();
-    takeSums(state);
-    if (!fields.agreesWithCells(state.flow))
-        Foam::Info<< "Warning: the volume fields of time " << runTime_.timeName() << " were changed since flotsamFoam wrote them. The changes do not count: the run"
-            << " continues its stored state.\n    To have them count, remove " << runTime_.timeName() << "/flotsamState.h5 (in parallel of every processor*).\n" << Foam::endl;
-    step.restore(std::move(state.flow), state.arrays, CoupledStep::Fields::Exact);
-    Foam::Info<< "continuing the stored state of time " << runTime_.timeName() << Foam::endl;
-}
-
-/// Solids, contact and sums as stored, the fluid from the written fields.
-void RunOutput::continueShared(CoupledStep& step, const FoamFields& fields)
-{
-    RunState state = files_.readShared();
-    takeSums(state);
-    FlowState start;
-    const bool isNodal = fields.readNodes(start);
-    if (!isNodal) fields.readStart(start);
-    start.time = state.flow.time;
-    step.restore(std::move(start), state.arrays, isNodal ? CoupledStep::Fields::Nodal : CoupledStep::Fields::Cells);
-    if (!isNodal) mass_.initial += step.fluid().liquidVolume() - mass_.final; // what reading the cells changes is no error of the run
-    Foam::Info<< "continuing from time " << runTime_.timeName() << " on other processes than those that wrote it: bodies, contact and sums exactly; velocity, pressure and "
-        << "phase from " << (isNodal ? "the point fields, as accurate as written (writePrecision)" : "the volume fields, as there are no point fields to them: less accurate")
-        << "; the first step is of first order in time" << Foam::endl;
-}
-
-/// Solids are stored by their numbers: another order would exchange them. Poses come from the state, so that a structure given elsewhere would stay where it was.
-void RunOutput::checkMembers(const RunState& state) const
-{
-    const auto stored = state.arrays.find("members");
-    if (stored == state.arrays.end()) return;
-    if (stored->second == codesOf(members_))
-    {
-        const auto described = state.arrays.find("descriptions");
-        const int other = described == state.arrays.end() ? -1 : differingRow(described->second, descriptions_);
-        if (other >= 0)
-            throw std::runtime_error("restart: constant/bodies is not that of the stored state of time " + runTime_.timeName() + ": mass, volume, extent"
-                + std::string(members_[other].isStructure ? " or place" : "") + " of '" + members_[other].name + "' differ. Continue with what it was; to start anew from the"
-                " fields of this time, with the bodies at their places in constant/bodies, remove its flotsamState.h5 and uniform/flotsamState.h5");
-        return;
-    }
-    const std::vector<std::string> names = namesFrom(stored->second);
-    std::size_t first = 0;
-    while (first < names.size() && first < members_.size() && names[first] == members_[first].name) ++first;
-    const auto quoted = [](bool isThere, const std::string& name) { return isThere ? "'" + name + "'" : std::string("none"); };
-    throw std::runtime_error("restart: constant/bodies is not that of the stored state of time " + runTime_.timeName() + ", which has " + std::to_string(names.size())
-        + " structures and bodies; now there are " + std::to_string(members_.size()) + ". The first that differs was " + quoted(first < names.size(), first < names.size() ? names[first] : "")
-        + ", is " + quoted(first < members_.size(), first < members_.size() ? members_[first].name : "")
-        + ". Continue with those of the stored state; to start anew from the fields of this time, with the bodies at their places in constant/bodies, remove its"
-        " flotsamState.h5 and uniform/flotsamState.h5");
-}
-
-/// The state's own properties are in its pressure, velocities and loads alone: it goes on with others, which may be meant.
-void RunOutput::warnOtherFluid(const RunState& state) const
-{
-    const auto stored = state.arrays.find("fluid");
-    const std::string changes = stored == state.arrays.end() ? "" : changedFluid(stored->second, fluid_);
-    if (changes.empty()) return;
-    Foam::Info<< "Warning: the stored state of time " << runTime_.timeName() << " was computed with other properties: " << changes.c_str()
-        << ".\n    The run goes on with those of constant/transportProperties and constant/g as they are now; pressure and loads change with the first step\n" << Foam::endl;
-}
-
-void RunOutput::checkContinued(const RunState& state) const
-{
-    checkMembers(state);
-    warnOtherFluid(state);
-}
-
-void RunOutput::takeSums(RunState& state)
-{
-    checkContinued(state);
-    // a folder that was given another name is of that time
-    if (Foam::Time::timeName(state.flow.time) != runTime_.timeName()) state.flow.time = runTime_.value();
-    mass_ = {state.scalars["initialLiquid"], state.scalars["inflow"], state.scalars["outflow"], state.scalars["liquid"]};
-    steps_ = firstStep_ = long(state.scalars["steps"]);
-    redistributed_ = state.scalars["redistributed"];
-    timeStep_ = state.scalars["timeStep"];
-    lastStep_ = state.flow.dt;
-    firstStart_ = state.scalars["firstStart"];
-    largestOverlap_ = state.scalars["largestOverlap"];
-    forces_.restore(state.arrays["forces"]);
-}
 
 void RunOutput::begin(const CoupledStep& step)
 {
@@ -349,28 +180,6 @@ void RunOutput::countRejected(const std::string& reason, double dt)
 {
     ++rejected_;
     Foam::Info<< "step of " << dt << " s rejected: " << reason.c_str() << "; repeated with half of it" << Foam::endl;
-}
-
-void RunOutput::writeState(const CoupledStep& step, double timeStep)
-{
-    RunState state;
-    state.flow = step.fluid().state();
-    state.arrays = step.save();
-    const std::map<std::string, std::vector<double>> ofProcess = step.saveOfProcess();
-    std::vector<std::string> names;
-    for (const auto& array : ofProcess) names.push_back(array.first);
-    state.arrays.insert(ofProcess.begin(), ofProcess.end());
-    state.arrays["forces"] = forces_.values();
-    state.arrays["fluid"] = fluidRecord(fluid_);
-    state.arrays["members"] = codesOf(members_);
-    state.arrays["descriptions"] = descriptions_;
-    state.scalars = {{"initialLiquid", mass_.initial}, {"inflow", mass_.inflow}, {"outflow", mass_.outflow}, {"liquid", mass_.final},
-        {"steps", double(steps_)}, {"redistributed", redistributed_}, {"timeStep", timeStep}, {"firstStart", firstStart_},
-        {"largestOverlap", largestOverlap_}};
-    files_.write(std::move(state), names);
-    if (!history_) return;
-    history_->flush();
-    if (!members_.empty()) history_->writeSurface(runTime_.value(), step.records());
 }
 
 void RunOutput::end(const CoupledStep& step)
