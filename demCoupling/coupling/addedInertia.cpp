@@ -25,29 +25,40 @@ InertiaFactor AddedInertia::doubt(int b) const
     return {std::max(1.0, expected/factors_[b].mass), std::max(1.0, expected/factors_[b].turn)};
 }
 
+/// Of a change of load, by what it would change the engine's velocity at the surface: force, moment [m/s^2].
+std::array<double, 2> AddedInertia::pull(int b, const Load& change) const
+{
+    const BodyDefinition& body = bodies_[b];
+    return {change.force.norm()/(body.mass*factors_[b].mass), change.moment.norm()/(body.mass*factors_[b].turn*radiusOfInertia(body))};
+}
+
 /// What bodies answer to the changes of others spoils the answer, a factor too large diverges: only the largest changes count, and no more
-/// added mass than twice the liquid a body displaces.
+/// added mass than twice the liquid a body displaces. Large is what moves the engine's body much: behind a force that its factor of mass has calmed
+/// hides a moment that still turns it as if there were no fluid.
 bool AddedInertia::raise(const std::vector<Load>& contactChange, const std::vector<Load>& fluidChange)
 {
+    std::vector<std::array<double, 2>> pulls;
     double largest = 0;
     for (std::size_t b = 0; b < bodies_.size(); ++b)
-        largest = std::max({largest, contactChange[b].force.norm(), contactChange[b].moment.norm()/radiusOfInertia(bodies_[b])});
+    {
+        pulls.push_back(pull(int(b), contactChange[b]));
+        largest = std::max({largest, pulls[b][0], pulls[b][1]});
+    }
+    const double least = std::max(0.5*largest, controls_.tolerance*controls_.gravity); // below: answers to others, noise
     bool isRaised = false;
     for (std::size_t b = 0; b < bodies_.size(); ++b)
     {
-        const BodyDefinition& body = bodies_[b];
-        const double least = std::max(0.5*largest, controls_.tolerance*body.mass*controls_.gravity); // below: answers to others, noise
         const double most = largestFactor(int(b));
-        auto raiseOne = [&](double& factor, const Vec3& change, const Vec3& answer, double leastChange)
+        auto raiseOne = [&](double& factor, double pull, const Vec3& change, const Vec3& answer)
         {
-            if (change.norm() < leastChange || change.isZero(0)) return;
+            if (pull < least || change.isZero(0)) return;
             const double r = -answer.dot(change)/change.squaredNorm();
             if (r <= 0 || r >= 1) return;
             const double wanted = std::min(1/(1 - r), most);
             while (wanted >= leastFactor && 2*factor <= wanted) { factor *= 2; isRaised = true; }
         };
-        raiseOne(factors_[b].mass, contactChange[b].force, fluidChange[b].force, least);
-        raiseOne(factors_[b].turn, contactChange[b].moment, fluidChange[b].moment, least*radiusOfInertia(body));
+        raiseOne(factors_[b].mass, pulls[b][0], contactChange[b].force, fluidChange[b].force);
+        raiseOne(factors_[b].turn, pulls[b][1], contactChange[b].moment, fluidChange[b].moment);
     }
     return isRaised;
 }

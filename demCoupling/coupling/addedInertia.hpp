@@ -12,6 +12,8 @@
 #include "demCoupling/core/rigidBody.hpp"
 #include "demCoupling/coupling/couplingControls.hpp"
 
+#include <array>
+
 namespace flotsam
 {
 
@@ -46,6 +48,7 @@ private:
 
     double expected(int body) const;        ///< (mass + displaced liquid)/mass
     double largestFactor(int body) const;   ///< the same, with twice the liquid
+    std::array<double, 2> pull(int body, const Load& change) const;
 
     std::vector<BodyDefinition> bodies_;
     CouplingControls controls_;
