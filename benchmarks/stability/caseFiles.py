@@ -29,7 +29,7 @@ class SceneCase:
         parts.append(files.oneFluid(s.mu[0] / s.rho[0], s.rho[0]) if s.oneFluid else files.twoFluids(s.mu[0] / s.rho[0], s.mu[1] / s.rho[1], *s.rho))
         if s.bodies or s.structures:
             parts.append(files.bodies(self._solids()))
-        return files.merged(*parts, {"system/fvSolution": files.dictionary("fvSolution", "flotsam { " + " ".join(s.options) + " }")})
+        return files.merged(*parts, s.files, {"system/fvSolution": files.dictionary("fvSolution", "flotsam { " + " ".join(s.options) + " }")})
 
     def parameters(self, _run):
         return {}

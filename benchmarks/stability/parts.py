@@ -59,6 +59,7 @@ class Scene:
     endTime: float = 0
     speed: float = 0                    # that energy allows [m/s]
     what: list = field(default_factory=list)        # words for the table
+    files: dict = field(default_factory=dict)       # of the case: path, text
     rng: object = None
 
     @property
