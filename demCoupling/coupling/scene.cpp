@@ -103,16 +103,14 @@ std::vector<double> Scene::save() const
     return data;
 }
 
-void Scene::restore(const std::vector<double>& data)
+std::vector<Solid> Scene::stored(const std::vector<double>& data)
 {
     constexpr std::size_t width = 18;
     if (data.size() % width != 0)
         throw std::runtime_error("restart: the stored state was written by another version of flotsamFoam; start the run anew");
-    if (data.size() != width*solids_.size())
-        throw std::runtime_error("restart: the stored state has " + std::to_string(data.size()/width)
-            + " solids, the case has " + std::to_string(solids_.size()) + "; restart with the constant/bodies of the first run");
+    std::vector<Solid> solids(data.size()/width);
     const double* at = data.data();
-    for (Solid& s : solids_)
+    for (Solid& s : solids)
     {
         s.pose.position = Vec3(at[0], at[1], at[2]);
         std::copy(at + 3, at + 7, s.pose.orientation.coeffs().data());
@@ -122,6 +120,24 @@ void Scene::restore(const std::vector<double>& data)
         s.offsetSlope = Vec3(at[14], at[15], at[16]);
         s.kind = Solid::Kind(int(at[17]));
         at += width;
+    }
+    return solids;
+}
+
+void Scene::restore(const std::vector<double>& data)
+{
+    const std::vector<Solid> was = stored(data);
+    if (was.size() != solids_.size())
+        throw std::runtime_error("restart: the stored state has " + std::to_string(was.size())
+            + " solids, the case has " + std::to_string(solids_.size()) + "; restart with the constant/bodies of the first run");
+    for (std::size_t k = 0; k < was.size(); ++k)
+    {
+        Solid& s = solids_[k];
+        s.pose = was[k].pose;
+        s.motion = was[k].motion;
+        s.offset = was[k].offset;
+        s.offsetSlope = was[k].offsetSlope;
+        s.kind = was[k].kind;
     }
 }
 

@@ -62,6 +62,8 @@ public:
     /// Poses, motions and offsets of all solids as numbers, and back (checkpoint).
     std::vector<double> save() const;
     void restore(const std::vector<double>& data);
+    /// Pose, motion, offset and kind of every solid that save() has written.
+    static std::vector<Solid> stored(const std::vector<double>& data);
 
 private:
     std::vector<SceneStructure> structures_;

@@ -38,7 +38,8 @@ std::vector<std::string> structureNames(const BodiesInput& input)
     return names;
 }
 
-/// What must not change in a run, one row of numbers for each structure and body: mass, volume, bounds of the shape; of structures also the pose given.
+/// What must not change in a run, one row of numbers for each structure and body: mass, volume, bounds of the shape; of structures also the pose given, where they
+/// move that of time 0.
 std::vector<double> describe(const BodiesInput& input)
 {
     std::vector<double> rows;
@@ -57,7 +58,7 @@ std::vector<double> describe(const BodiesInput& input)
 
 RunOutput::RunOutput(const Foam::Time& runTime, const SimplexMesh& mesh, const Halo& halo, const FluidProperties& fluid, const BodiesInput& bodies,
     const PhaseTimers& timers)
-:   runTime_(runTime), mesh_(mesh), halo_(halo), fluid_(fluid), timers_(timers), members_(makeMembers(bodies)),
+:   runTime_(runTime), mesh_(mesh), halo_(halo), fluid_(fluid), bodies_(bodies), timers_(timers), members_(makeMembers(bodies)),
     descriptions_(describe(bodies)),
     files_(runTime, mesh, halo), log_(timers, runTime.value(), runTime.endTime().value()), forces_(structureNames(bodies)),
     nStructures_(int(bodies.structures.size())), firstStart_(runTime.value()), thinnestBody_(thinnestBody(bodies))

@@ -2,6 +2,7 @@
 /// The part of RunOutput that writes the run's state and continues it.
 #include "demCoupling/foam/runOutput.H"
 
+#include "demCoupling/foam/continuedMotion.H"
 #include "io/fluidRecord.hpp"
 
 #include "OSspecific.H"
@@ -45,6 +46,18 @@ int differingRow(const std::vector<double>& a, const std::vector<double>& b, std
     for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k)
         if (std::abs(a[k] - b[k]) > 1e-9*std::max({1e-3, std::abs(a[k]), std::abs(b[k])})) return int(k/rowSize);
     return -1;
+}
+
+/// Ends messages about a constant/bodies that does not fit.
+const char* const startAnew = "; to start anew from the fields of this time, with the bodies at their places in constant/bodies, remove its flotsamState.h5 and"
+    " uniform/flotsamState.h5";
+
+/// The row of a structure that moves has its place at time 0 last, seven numbers: it may begin elsewhere, see jumpingStructure().
+void leaveOutPlace(std::vector<double>& rows, const std::vector<double>& other, std::size_t row, std::size_t rowSize)
+{
+    constexpr std::size_t place = 7;
+    const std::size_t end = (row + 1)*rowSize;
+    if (end <= std::min(rows.size(), other.size())) std::copy(other.begin() + (end - place), other.begin() + end, rows.begin() + (end - place));
 }
 
 } // namespace
@@ -134,11 +147,15 @@ void RunOutput::checkMembers(const RunState& state) const
     if (stored->second == codesOf(members_))
     {
         const auto described = state.arrays.find("descriptions");
-        const int other = described == state.arrays.end() ? -1 : differingRow(described->second, descriptions_, descriptions_.size()/members_.size());
+        if (described == state.arrays.end()) return;
+        const std::size_t rowSize = descriptions_.size()/std::max<std::size_t>(members_.size(), 1);
+        std::vector<double> rows = described->second;
+        for (int s = 0; s < nStructures_; ++s)
+            if (bodies_.structures[s].motion) leaveOutPlace(rows, descriptions_, s, rowSize);
+        const int other = differingRow(rows, descriptions_, rowSize);
         if (other >= 0)
             throw std::runtime_error("restart: constant/bodies is not that of the stored state of time " + runTime_.timeName() + ": mass, volume, extent"
-                + std::string(members_[other].isStructure ? " or place" : "") + " of '" + members_[other].name + "' differ. Continue with what it was; to start anew from the"
-                " fields of this time, with the bodies at their places in constant/bodies, remove its flotsamState.h5 and uniform/flotsamState.h5");
+                + std::string(members_[other].isStructure ? " or place" : "") + " of '" + members_[other].name + "' differ. Continue with what it was" + startAnew);
         return;
     }
     const std::vector<std::string> names = namesFrom(stored->second);
@@ -148,8 +165,27 @@ void RunOutput::checkMembers(const RunState& state) const
     throw std::runtime_error("restart: constant/bodies is not that of the stored state of time " + runTime_.timeName() + ", which has " + std::to_string(names.size())
         + " structures and bodies; now there are " + std::to_string(members_.size()) + ". The first that differs was " + quoted(first < names.size(), first < names.size() ? names[first] : "")
         + ", is " + quoted(first < members_.size(), first < members_.size() ? members_[first].name : "")
-        + ". Continue with those of the stored state; to start anew from the fields of this time, with the bodies at their places in constant/bodies, remove its"
-        " flotsamState.h5 and uniform/flotsamState.h5");
+        + ". Continue with those of the stored state" + startAnew);
+}
+
+/// A folder that was given another name is of that time.
+double RunOutput::timeOf(const RunState& state) const
+{
+    return Foam::Time::timeName(state.flow.time) == runTime_.timeName() ? state.flow.time : runTime_.value();
+}
+
+/// What is prescribed may change while the run goes on, but not so that a structure is elsewhere at once.
+void RunOutput::checkMotions(const RunState& state) const
+{
+    const auto solids = state.arrays.find("solids");
+    if (solids == state.arrays.end()) return;
+    const std::string jump = jumpingStructure(bodies_, solids->second, timeOf(state));
+    if (!jump.empty())
+        throw std::runtime_error("restart: constant/bodies does not go on from the stored state of time " + runTime_.timeName() + ": structure " + jump
+            + ". Continue with the motion it had, or with one that has it there then (`position` is that of time 0)" + startAnew);
+    const std::string held = bodiesHeldAgain(bodies_, solids->second, timeOf(state));
+    if (!held.empty())
+        Foam::Info<< "Warning: constant/bodies is not that of the stored state of time " << runTime_.timeName() << ": " << held.c_str() << ".\n" << Foam::endl;
 }
 
 /// The state's own properties are in its pressure, velocities and loads alone: it goes on with others, which may be meant.
@@ -165,14 +201,14 @@ void RunOutput::warnOtherFluid(const RunState& state) const
 void RunOutput::checkContinued(const RunState& state) const
 {
     checkMembers(state);
+    checkMotions(state);
     warnOtherFluid(state);
 }
 
 void RunOutput::takeSums(RunState& state)
 {
     checkContinued(state);
-    // a folder that was given another name is of that time
-    if (Foam::Time::timeName(state.flow.time) != runTime_.timeName()) state.flow.time = runTime_.value();
+    state.flow.time = timeOf(state);
     mass_ = {state.scalars["initialLiquid"], state.scalars["inflow"], state.scalars["outflow"], state.scalars["liquid"]};
     steps_ = firstStep_ = long(state.scalars["steps"]);
     redistributed_ = state.scalars["redistributed"];

@@ -55,3 +55,30 @@ truncate -s 3000 two/processor1/0.002/flotsamState.h5
 refused two processor1/0.002/flotsamState.h5 'from the written fields' mpirun -np 2 flotsamFoam -parallel
 rm two/processor1/0.002/flotsamState.h5
 (cd two && solve 2 && grep -q 'bodies, contact and sums exactly' log.mpirun) || fail "without one process's state: the run does not go on"
+
+# a gate whose motion is changed: goes on where it passes through the place of the state (stopped, faster, by its fields alone), is refused where it would jump; a
+# body that moves and is to be held again is told
+makeFloatingBar gate
+sed -i 's/density .*590;/& velocity (0 -0.1 0);/' gate/constant/bodies
+echo 'structures { gate { shape { type box; size (0.02 0.05 0.05); } position (0.06 -0.05 0.025); motion { type linear; velocity (0 0.5 0); } } }' >> gate/constant/bodies
+fixedSteps gate 0.001 0.002 2
+(cd gate && quietly flotsamFoam) || exit
+setEntry gate/system/controlDict endTime 0.004
+
+# another NAME 'COMMAND' WORDS: what the command changes is answered with the words, '' : with nothing
+another() {
+    rm -rf "$1" && cp -r gate "$1"
+    (cd "$1" && eval "$2") || fail "could not make $1"
+    for option in -dry-run -noFunctionObjects; do
+        (cd "$1" && flotsamFoam $option) > "$1.log" 2>&1
+        if [ -n "$3" ]; then grep -q "$3" "$1.log" || fail "$1 ($option): no word of '$3': $(tail -n 12 "$1.log")"
+        else grep -q '^End$' "$1.log" && ! grep -q 'arning: ' "$1.log" || fail "$1 ($option): does not go on without a word: $(tail -n 12 "$1.log")"; fi
+    done
+}
+another jumping 'sed -i "s/velocity (0 0.5 0)/velocity (0 0.4 0)/" constant/bodies' "'gate' would jump: it is at (0.06 -0.049 0.025), and its .motion. has it at (0.06 -0.0492 0.025) at 0.002 s"
+another shifted 'sed -i "s/position (0.06 -0.05 0.025)/position (0.06 -0.04 0.025)/" constant/bodies' "'gate' would jump"
+another motionless 'sed -i "s/motion { .* } } }/} }/" constant/bodies' "'gate' had a .motion. and has none now"
+another stopped 'sed -i "s/velocity (0 0.5 0)/velocity (0 0 0)/; s/position (0.06 -0.05 /position (0.06 -0.049 /" constant/bodies' ''
+another shared 'rm 0.002/flotsamState.h5; sed -i "s/velocity (0 0.5 0)/velocity (0 1 0)/; s/position (0.06 -0.05 /position (0.06 -0.051 /" constant/bodies' ''
+another jumpingShared 'rm 0.002/flotsamState.h5; sed -i "s/velocity (0 0.5 0)/velocity (0 1 0)/" constant/bodies' "'gate' would jump"
+another heldAgain 'sed -i "s/density /releaseTime 0.003; density /" constant/bodies' 'body bar, which moves in it, is stopped and held until its releaseTime, 0.003 s'
