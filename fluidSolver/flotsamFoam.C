@@ -346,6 +346,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         step.fluid().state().time = runTime.value(); // OpenFOAM's clock, to the last digit
 
         output.record(step, result, limit, rates*used);
+        if (!time.adjustTimeStep) output.watchCourant(step, courantRates(step)*used, used);
         const double endTime = runTime.endTime().value(); // a signal changes it
         if (write(runTime, halo, step, fields, output, timers, dt)) isComplete = runTime.value() > endTime - 0.5*used;
     }

@@ -129,6 +129,17 @@ void RunOutput::record(const CoupledStep& step, const StepResult& result, const 
     for (const std::string& waiting : result.waiting) Foam::Info<< waiting.c_str() << Foam::endl;
 }
 
+void RunOutput::watchCourant(const CoupledStep& step, const CourantNumbers& courant, double dt)
+{
+    const double largest = std::max(courant.largest, courant.bodies);
+    if (largest <= RunLog::largeCourant || ++longSteps_ > 1) return;
+    const auto [solid, speed] = step.scene().fastest();
+    const std::string fastest = courant.bodies > courant.largest ? text("the surface of ", solid, " moves with ", speed, " m/s") : step.fluid().describeFastest();
+    Foam::Info<< text("Warning: t = ", runTime_.value(), " s: the step of ", dt, " s, given by deltaT with adjustTimeStep no, has a Courant number of ", largest, ": ", fastest,
+        ". Results are wrong by a tenth and more. Set adjustTimeStep yes (maxCo ", TimeControls().maxCo, ") in system/controlDict, or a deltaT of ", RunLog::largeCourant*dt/largest,
+        " s at most").c_str() << Foam::endl;
+}
+
 /// Once.
 void RunOutput::reportSqueezed(const CoupledStep& step)
 {
@@ -202,6 +213,7 @@ void RunOutput::end(const CoupledStep& step)
     summary.anomalies = {{"rejected steps", rejected_}, {"non-converged linear solves", notConverged_},
         {"contacts not converged", unfinishedContacts_}, {"limited faces of the phase field", limitedFaces_},
         {"elements shared by two solids (largest)", sharedElements_}};
+    if (longSteps_ > 0) summary.anomalies.emplace_back(text("steps of a Courant number above ", RunLog::largeCourant), longSteps_);
     summary.mass = mass_;
     summary.unbalancedVolume = unbalanced_;
     summary.structures = forces_.result();

@@ -132,6 +132,7 @@ class RunLog
 {
 public:
     static constexpr double deepOverlap = 0.05; ///< of the thinnest body: such overlaps of contact surfaces are told
+    static constexpr double largeCourant = 10;  ///< steps of given length beyond it are told: docs/resolution.md, "Time step"
 
     /// `timers` must outlive the log. `endTime` [s] for the time left.
     RunLog(const PhaseTimers& timers, double startTime, double endTime);

@@ -142,6 +142,18 @@ rm -rf thin && cp -r good thin
 echo 'structures { gate { shape { type box; size (1e-6 0.01 0.1); } position (0.0512345 0 0.025); } }' >> thin/constant/bodies
 (cd thin && quietly flotsamFoam -dry-run && grep -q 'flow does not know of structures .* inside: gate\.' log.flotsamFoam) || fail "a structure between the nodes is not mentioned"
 
+# steps of given length that are far too long for the flow: told once and counted, on one process and on two
+makeCase damBreak long
+(cd long && quietly blockMesh && quietly setFields && quietly decomposePar) || exit
+for steps in '0.05 0.25' '0.02 0.1'; do
+    fixedSteps long ${steps% *} ${steps#* } 100
+    rm -rf long/0.[0-9]*
+    for run in flotsamFoam 'mpirun -np 2 flotsamFoam -parallel'; do (cd long && quietly $run && cat log.[fm]* > log); done
+    [ "${steps% *}" = 0.02 ] && { grep -q 'Courant number \(of\|above\) [0-9]' long/log && fail "a warning of steps that are not too long"; continue; }
+    [ "$(grep -c 'Warning: t = 0.1 s: the step of 0.05 s, .* adjustTimeStep no, has a Courant number of 1[0-9.]*: |u| = .* deltaT of 0.0[0-9]* s at most' long/log)" -eq 2 ] || fail "steps that are too long: not told once a run"
+    [ "$(grep -c '^  steps of a Courant number above 10  *[2-5]$' long/log)" -eq 2 ] || fail "steps that are too long: not counted in the summary"
+done
+
 # in parallel: said once, with the file
 rm -rf once && cp -r good once
 (cd once && quietly decomposePar && sed -i 's/density/densty/' constant/bodies && mpirun -np 2 flotsamFoam -parallel) > once.log 2>&1 && fail "an unknown keyword is accepted on two processes"
