@@ -6,12 +6,14 @@
 #include "foam/boundaryConditions.H"
 #include "foam/boundaryReader.H"
 #include "foam/cellMeans.H"
+#include "foam/dictionaryChecks.H"
 
 #include "Time.H"
 #include "fixedValueFvPatchField.H"
 #include "pointMesh.H"
 
 #include <algorithm>
+#include <cmath>
 
 namespace flotsam
 {
@@ -32,6 +34,26 @@ std::unique_ptr<Field> newField(const Foam::fvMesh& db, const Mesh& mesh, const 
     using Type = typename Field::value_type;
     const Foam::IOobject io(name, db.time().timeName(), db, Foam::IOobject::NO_READ, Foam::IOobject::AUTO_WRITE);
     return std::make_unique<Field>(io, mesh, Foam::dimensioned<Type>(name, dims, Foam::pTraits<Type>::zero));
+}
+
+bool isNumber(double value) { return std::isfinite(value); }
+bool isNumber(const Foam::vector& value) { return std::isfinite(value.x()) && std::isfinite(value.y()) && std::isfinite(value.z()); }
+
+/// Binary files hold what is no number as well as numbers, and comparisons with it are false, or end the run with a stack trace.
+template<class Field>
+void checkNumbers(const Field& field, const Halo& halo)
+{
+    double counts[2] = {};  // of cells; of faces that prescribe a value
+    for (const auto& value : field.primitiveField()) counts[0] += !isNumber(value);
+    for (const auto& patch : field.boundaryField())
+        if (patch.fixesValue())
+            for (const auto& value : patch) counts[1] += !isNumber(value);
+    halo.sum(counts, 2);
+    if (counts[0] + counts[1] == 0) return;
+    const bool isOfCells = counts[0] > 0;
+    failOnAll(text("Field ", std::string(field.name()), " of time ", std::string(field.time().timeName()), " has values that are no numbers (nan, inf), in ", isOfCells ? counts[0] : counts[1],
+        isOfCells ? " cells" : " faces of the boundary", ": a run or a tool that failed has written them.\n    Make the field anew (cp -r 0.orig 0, then setFields or what you fill it with),"
+        " or remove this time to go on from the one before."));
 }
 
 /// Other solvers overshoot by less than this, setAlphaField on polyhedra with warped faces by up to 0.02.
@@ -93,8 +115,10 @@ FoamFields::FoamFields(const Foam::fvMesh& mesh, const MeshAdapter& adapter, con
 :
     mesh_(mesh), adapter_(adapter), halo_(halo), controls_(controls), velocity_(inputField(mesh, "U"), mesh)
 {
+    checkNumbers(velocity_, halo);
     const std::string pressureName = pressureFieldName(mesh, controls);
     auto read = std::make_unique<Foam::volScalarField>(inputField(mesh, pressureName), mesh);
+    checkNumbers(*read, halo);
     if (read->dimensions() != Foam::dimPressure) pressureScale_ = controls.fluid.rhoLiquid;
     const Foam::dimensionSet dims = read->dimensions();
     if (pressureName == "p") pressure_ = std::move(read);
@@ -108,6 +132,7 @@ FoamFields::FoamFields(const Foam::fvMesh& mesh, const MeshAdapter& adapter, con
     pointP_ = newField<Foam::pointScalarField>(mesh, points, "pointP", dims);
     if (!controls.fluid.isTwoPhase) return;
     alpha_ = std::make_unique<Foam::volScalarField>(inputField(mesh, controls.alphaName), mesh);
+    checkNumbers(*alpha_, halo);
     checkFractions(*alpha_, halo);
     pointAlpha_ = newField<Foam::pointScalarField>(mesh, points, "pointAlpha", Foam::dimless);
 }

@@ -13,6 +13,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cfenv>
+#include <limits>
 #include <mpi.h>
 
 using namespace flotsam;
@@ -387,4 +389,41 @@ TEST_CASE("no surface comes near nodes whose cells are all empty, as above a col
                 CAPTURE(width);
                 CHECK(-s.halo.max(-nearest) > 0.6*h);
             }
+}
+
+TEST_CASE("start fields with what is no number are refused, in cells of one rank and on faces that prescribe it")
+{
+    FoamCase foam("foamChannel", {{"0/U", "inlet { type flowRateInletVelocity; volumetricFlowRate constant 0.05; value uniform (0 0 0); }", "inlet { type fixedValue; value uniform (1 0 0); }"}});
+    const CaseControls controls = readCaseControls(foam.time());
+    const MeshAdapter adapter = makeSimplexMesh(foam.mesh(), MPI_COMM_WORLD);
+    const Halo halo(adapter.mesh, MPI_COMM_WORLD);
+    const auto message = [&] { return messageOf([&] { FoamFields fields(foam.mesh(), adapter, halo, controls); }); };
+    /// Message about the field that `how` has spoilt; the file is then as before.
+    const auto spoilt = [&](auto& field, const auto& how)
+    {
+        const std::string file = "0/" + field.name(), good = foam.read(file);
+        how(field);
+        std::fenv_t trapping;   // in parallel, and writing compares values
+        std::feholdexcept(&trapping);
+        field.writeObject(Foam::IOstream::BINARY, Foam::IOstream::currentVersion, Foam::IOstream::UNCOMPRESSED, true);
+        std::fesetenv(&trapping);
+        const std::string said = message();
+        foam.edit({file, foam.read(file), good});
+        return said;
+    };
+    const auto io = [&](const char* name) { return Foam::IOobject(name, "0", foam.mesh(), Foam::IOobject::MUST_READ, Foam::IOobject::NO_WRITE, false); };
+    Foam::volVectorField u(io("U"), foam.mesh());
+    Foam::volScalarField p(io("p_rgh"), foam.mesh()), alpha(io("alpha.water"), foam.mesh());
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const bool isLast = halo.rank() == halo.size() - 1;
+    CHECK(message().empty());
+    const auto inLastCell = [&](auto& field) { if (isLast) field.primitiveFieldRef().last() = nan; };
+    for (const std::string& said : {spoilt(p, inLastCell), spoilt(alpha, inLastCell), spoilt(u, [&](auto& field) { if (isLast) field.primitiveFieldRef().last().y() = nan; })})
+        CHECK(said.find("of time 0 has values that are no numbers (nan, inf), in 1 cells") != std::string::npos);
+    const auto atInlet = [&](auto& field) { for (auto& patch : field.boundaryFieldRef()) if (patch.patch().name() == "inlet") patch == Foam::vector(nan, 0, 0); };
+    Foam::volVectorField inflow(io("U"), foam.mesh());
+    const std::string atFaces = spoilt(inflow, atInlet);
+    CAPTURE(atFaces);
+    CHECK(atFaces.find("Field U of time 0 has values that are no numbers (nan, inf), in 10 faces of the boundary") != std::string::npos);
+    CHECK(message().empty());
 }
