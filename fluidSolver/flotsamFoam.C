@@ -185,7 +185,7 @@ void updateTimeControls(const Foam::Time& runTime, TimeControls& time)
 /// What a run that begins anew begins with.
 void reportAnew(const CaseControls& controls, const SimplexMesh& mesh, const Halo& halo, const BodiesInput& bodies, const FlowState& state)
 {
-    reportStart(controls, mesh, halo, state);
+    reportStart(controls, mesh, halo, state, !bodies.structures.empty() || !bodies.bodies.empty());
     const std::string doubt = bodyInStream(bodies, mesh, halo, controls.fluid, state, state.time);
     if (!doubt.empty()) Foam::Info<< "Warning: " << doubt.c_str() << Foam::nl;
 }

@@ -36,7 +36,17 @@ LiquidPlace liquidPlace(const SimplexMesh& mesh, const Halo& halo, const FlowSta
         for (int d = 0; d < mesh.dim; ++d) square += state.u[std::size_t(i)*mesh.dim + d]*state.u[std::size_t(i)*mesh.dim + d];
         fastest = std::max(fastest, std::sqrt(square));
     }
-    double sums[4] = {};    // volumes and moments of liquid and gas
+    double sums[5] = {};    // volumes and moments of liquid and gas; the liquid of the start field's cells
+    if (!state.startLiquid.volume.empty())
+        for (int i = 0; i < mesh.nOwned; ++i) sums[4] += mesh.thickness*state.startLiquid.volume[i];
+    const auto surfaceBetween = [&](int wet, int dry)
+    {
+        const double a = state.alpha[wet], b = state.alpha[dry];
+        if (!(a > mostlyLiquid && b <= mostlyLiquid)) return;
+        const double h = height[wet] + (height[dry] - height[wet])*(a - mostlyLiquid)/(a - b);
+        low = std::min(low, h);
+        high = std::max(high, h);
+    };
     for (int e = 0; e < mesh.nElements; ++e)
     {
         if (!mesh.isOwnedElement[e]) continue;
@@ -46,12 +56,13 @@ LiquidPlace liquidPlace(const SimplexMesh& mesh, const Halo& halo, const FlowSta
             const double share = mesh.thickness*mesh.volume[e]/n, liquid = share*state.alpha[i], gas = share - liquid;
             const double parts[4] = {liquid, gas, liquid*height[i], gas*height[i]};
             for (int k = 0; k < 4; ++k) sums[k] += parts[k];
+            for (int b = 0; b < n; ++b) surfaceBetween(i, mesh.elements[std::size_t(e)*n + b]);
         }
     }
-    halo.sum(sums, 4);
+    halo.sum(sums, 5);
     LiquidPlace place;
-    place.liquid = sums[0];
-    place.gas = sums[1];
+    place.liquid = state.startLiquid.volume.empty() ? sums[0] : sums[4];
+    place.gas = sums[0] + sums[1] - place.liquid;
     place.lowest = halo.min(low);
     place.highest = halo.max(high);
     place.bottom = halo.min(bottom);

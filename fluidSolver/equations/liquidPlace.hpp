@@ -15,7 +15,7 @@ namespace flotsam
 struct LiquidPlace
 {
     double liquid = 0, gas = 0;                 ///< volumes, what solids cover included [m^3]
-    double lowest = 0, highest = 0;             ///< of nodes that are mostly liquid
+    double lowest = 0, highest = 0;             ///< of the liquid and its surface
     double bottom = 0, top = 0;                 ///< of the mesh
     double meanLiquid = 0, meanGas = 0;
     double fastest = 0;                         ///< of the liquid [m/s]

@@ -33,7 +33,7 @@ std::vector<std::string> doubtfulFluids(const CaseControls& controls)
     return doubts;
 }
 
-void reportStart(const CaseControls& controls, const SimplexMesh& mesh, const Halo& halo, const FlowState& state)
+void reportStart(const CaseControls& controls, const SimplexMesh& mesh, const Halo& halo, const FlowState& state, bool hasSolids)
 {
     const auto& g = controls.fluid.gravity;
     const double strength = std::hypot(g[0], g[1], g[2]);
@@ -41,7 +41,8 @@ void reportStart(const CaseControls& controls, const SimplexMesh& mesh, const Ha
     const LiquidPlace place = liquidPlace(mesh, halo, state, g);
     if (place.lowest > place.highest) return;   // none
     Foam::Info<< text("Start: ", place.liquid, " m^3 of ", controls.liquidName, ", ", std::round(1000*place.liquid/(place.liquid + place.gas))/10, " % of the mesh, at heights from ",
-        place.lowest, " to ", place.highest, " m of ", place.bottom, " to ", place.top, " m").c_str() << Foam::nl;
+        place.lowest, " to ", place.highest, " m of ", place.bottom, " to ", place.top, " m",
+        hasSolids ? " (where structures and bodies are, too)" : "").c_str() << Foam::nl;
     if (!hangsFromTop(place, strength)) return;
     Foam::Info<< text("Warning: ", controls.liquidName, " hangs at rest from the top of the mesh, with gas below it: it will fall. Does constant/g, ", vectorText(g, 1),
         ", point downwards? The opposite is ", vectorText(g, -1)).c_str() << Foam::nl;
