@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/foam/movingStructures.H"
+#include "demCoupling/foam/structureChecks.H"
 #include "foam/dictionaryChecks.H"
 
 #include <algorithm>
@@ -19,9 +20,7 @@ std::vector<SurfaceSphere> spheresInPlane(const StructureDefinition& s, const Sc
     const Pose& pose = s.solid.pose;
     const Vec3 across = Vec3::Unit(frame.planeAxis), normal = pose.orientation.conjugate()*across;
     const Vec3 point = pose.orientation.conjugate()*(frame.midPlane*across - pose.position);
-    const double area = s.solid.shape->sectionArea(point, normal);
-    for (const double side : {-1, 1})
-        if (std::abs(s.solid.shape->sectionArea(point + 0.499*side*frame.thickness*normal, normal) - area) > 1e-3*area) return {};
+    if (!isSameAcross(s.solid, frame)) return {};
     const auto spheres = sectionSpheres(*s.solid.shape, point, normal, s.sphereRadius, spacing, 0.5*s.sphereRadius);
     const auto isBeside = [&](const SurfaceSphere& sphere) { return std::abs((sphere.centre - point).dot(normal)) > 1e-6*sphere.radius; };
     if (std::any_of(spheres.begin(), spheres.end(), isBeside)) return {};

@@ -5,6 +5,8 @@
 #include "geometry/primitives.hpp"
 #include "geometry/thinSolids.hpp"
 
+#include <cmath>
+
 namespace flotsam
 {
 
@@ -106,7 +108,29 @@ private:
     std::string text_;
 };
 
+void warnUneven(const BodiesInput& input, const SceneFrame& frame)
+{
+    ShortList uneven;
+    for (const StructureDefinition& s : input.structures)
+        if (boxesMeet(boundsOf(s), input.box) && !isSameAcross(s.solid, frame)) uneven.add(s.solid.name);
+    if (uneven.isEmpty()) return;
+    const char axis = "xyz"[frame.planeAxis];
+    Foam::Info<< "Warning: 2D mesh: structures that are not the same from its front to its back, " << axis << " = " << frame.midPlane - 0.5*frame.thickness << " to "
+        << frame.midPlane + 0.5*frame.thickness << " m: " << uneven.text().c_str() << ". The flow has their section at " << axis << " = " << frame.midPlane
+        << " m all through, bodies meet them as they are. Let them reach through the mesh" << Foam::nl;
+}
+
 } // namespace
+
+bool isSameAcross(const Solid& solid, const SceneFrame& frame)
+{
+    if (!frame.isPlanar) return true;
+    const Vec3 across = Vec3::Unit(frame.planeAxis), normal = solid.pose.orientation.conjugate()*across;
+    const Vec3 point = solid.pose.orientation.conjugate()*(frame.midPlane*across - solid.pose.position);
+    const auto area = [&](double share) { return solid.shape->sectionArea(point + share*frame.thickness*normal, normal); };
+    const double middle = area(0);
+    return middle > 0 && std::abs(area(0.499) - middle) <= 1e-3*middle && std::abs(area(-0.499) - middle) <= 1e-3*middle;
+}
 
 StructureOverlaps findOverlaps(const std::vector<StructureDefinition>& structures, const SceneFrame& frame)
 {
@@ -142,6 +166,7 @@ void reportStructures(const BodiesInput& input, const SceneFrame& frame)
 {
     if (!Foam::Pstream::master()) return;
     warnOutside(input);
+    warnUneven(input, frame);
     const StructureOverlaps overlaps = findOverlaps(input.structures, frame);
     const auto name = [&](int s) { return input.structures[s].solid.name.c_str(); };
     for (const auto& [inner, outer] : overlaps.inside)

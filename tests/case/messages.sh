@@ -115,6 +115,9 @@ rm -rf misnamed && cp -r good misnamed && mv misnamed/constant/bodies misnamed/c
 rm -rf beside && cp -r good beside
 echo 'structures { pier { shape { type cylinder; end1 (5 0 0); end2 (5 0 0.05); radius 0.01; } } }' >> beside/constant/bodies
 (cd beside && quietly flotsamFoam -dry-run && grep -q 'structure pier lies outside of the mesh' log.flotsamFoam) || fail "a structure beside the mesh is not mentioned"
+rm -rf shallow && cp -r good shallow
+echo 'structures { pier { shape { type box; size (0.02 0.05 0.05); } position (0.07 -0.05 0); } }' >> shallow/constant/bodies
+(cd shallow && quietly flotsamFoam -dry-run && grep -q 'Warning: 2D mesh: structures that are not the same from its front to its back, z = 0 to 0.05 m: pier\.' log.flotsamFoam) || fail "a structure that does not reach through a 2D mesh is not mentioned"
 rm -rf upwards && cp -r good upwards
 sed -i 's/(0 -9.81 0)/(0 9.81 0)/' upwards/constant/g
 (cd upwards && quietly flotsamFoam -dry-run && grep -q 'Warning: water hangs at rest from the top of the mesh.*constant/g, (0 9.81 0), point downwards' log.flotsamFoam) || fail "a gravity that points upwards is not mentioned"

@@ -181,6 +181,25 @@ TEST_CASE("structures that overlap, touch, or lie in others")
     CHECK(wall.inside.empty());
 }
 
+TEST_CASE("2D: structures that do not reach through the mesh, or not with the same section, are found")
+{
+    BodiesScene s(false);       // 0.1 m thick, from z = 0
+    SceneFrame frame;
+    frame.isPlanar = true;
+    frame.midPlane = 0.05;
+    frame.thickness = 0.1;
+    const auto isSame = [&](const std::string& contents) { return isSameAcross(s.read("structures { post { shape { " + contents + " } }").structures[0].solid, frame); };
+    CHECK(isSame("type box; size (0.1 0.1 0.1); } position (1 0.5 0.05);"));
+    CHECK(isSame("type box; size (0.1 0.1 3); } position (1 0.5 0); orientation { axis (0 0 1); angleDeg 20; }"));
+    CHECK(isSame("type cylinder; end1 (1 0.5 -1); end2 (1 0.5 1); radius 0.1; }"));
+    CHECK_FALSE(isSame("type box; size (0.1 0.1 0.1); } position (1 0.5 0);"));         // z of a body does not count, of a structure it does
+    CHECK_FALSE(isSame("type box; size (0.1 0.1 0.02); } position (1 0.5 0.02);"));     // misses the mid-plane
+    CHECK_FALSE(isSame("type sphere; radius 0.1; } position (1 0.5 0.05);"));
+    CHECK_FALSE(isSame("type box; size (0.1 0.1 0.1); } position (1 0.5 0.05); orientation { axis (1 0 0); angleDeg 20; }"));
+    frame.isPlanar = false;
+    CHECK(isSame("type sphere; radius 0.1; } position (1 0.5 0.05);"));
+}
+
 TEST_CASE("prescribed motions: the velocity is the derivative of the pose")
 {
     BodiesScene s;
