@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace flotsam
 {
@@ -238,6 +239,26 @@ void warnMisnamed(const Foam::Time& time)
     }
 }
 
+/// Histories and states know them by their names. Groups differ in theirs, but `bar.0` may be a group of its own beside the group `bar`.
+template<class Members, class Name>
+void checkMembersDiffer(const Foam::dictionary& dict, const Members& members, const char* what, Name name)
+{
+    std::set<std::string> names;
+    for (const auto& member : members)
+        if (!names.insert(name(member)).second)
+            failIn(dict, text("Two ", what, " are called '", name(member), "': the members of a group of several have its name and a number, group.0, group.1, .. Give one of the groups another name."));
+}
+
+/// Patches of type wall are walls to the fluid whatever bodies feel.
+void reportOpenWalls(const Foam::polyMesh& mesh, const std::vector<std::string>& felt)
+{
+    std::vector<std::string> open;
+    for (const Foam::polyPatch& patch : mesh.boundaryMesh())
+        if (patch.type() == "wall" && std::find(felt.begin(), felt.end(), patch.name()) == felt.end()) open.push_back(patch.name());
+    if (!open.empty())
+        Foam::Info<< "constant/bodies: bodies pass through " << joined(open).c_str() << ", of type wall, which 'wallPatches' does not name" << Foam::nl;
+}
+
 } // namespace
 
 BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh, const SimplexMesh& simplexMesh, const Halo& halo, const Vec3& gravity)
@@ -252,6 +273,7 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
     frame.materials = input.materials;
 
     readStructures(dict, frame, input);
+    checkMembersDiffer(dict, input.structures, "structures", [](const StructureDefinition& s) { return s.solid.name; });
     checkCovering(input, simplexMesh, halo, dict);
     reportStructures(input, frame);
     std::vector<BodyGroup> groups = readGroups(dict, frame);
@@ -261,6 +283,7 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
         return input;
     }
     const auto patches = input.wallPatches = wallPatches(dict, mesh);
+    if (dict.found("wallPatches")) reportOpenWalls(mesh, patches);
     const int wallMaterial = patches.empty() ? 0 : readMaterial(dict, "wallMaterial", input.materials);
     for (const std::string& name : patches)
         for (WallDefinition& wall : makeMeshWalls(mesh, mesh.boundaryMesh()[mesh.boundaryMesh().findPatchID(name)], halo, wallMaterial))
@@ -277,6 +300,7 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
             input.bodyGroups.push_back(group.prototype.name);
             input.bodies.push_back(std::move(body));
         }
+    checkMembersDiffer(dict, input.bodies, "bodies", [](const BodyDefinition& b) { return b.name; });
     return input;
 }
 

@@ -114,7 +114,7 @@ std::vector<std::string> doubtfulBodies(const BodiesInput& input, const FluidPro
             std::round(100*depth(*body)/body->thinnest), " % of its thickness, into what it lies on. Give constant/bodies more `stiffness`, ",
             body->mass*gravity/(0.005*body->thinnest), " N/m for half a per cent"));
 
-    const auto staysHeld = [&](const BodyDefinition& b) { return b.releaseTime >= endTime; };
+    const auto staysHeld = [&](const BodyDefinition& b) { return b.releaseTime > 0 && b.releaseTime >= endTime; };
     if (const auto [body, who] = firstOf(input, staysHeld); body)
         doubts.push_back(text("body ", who, body->entersAtRelease ? " does not enter" : " is held all the time", ": its release, at ", body->releaseTime, " s, is not before endTime, ", endTime,
             " s"));

@@ -44,10 +44,17 @@ void line(const char* what, const std::string& value)
     Foam::Info << s.c_str() << value.c_str() << Foam::nl;
 }
 
+/// An oil has it, and water whose dynamic viscosity was given as nu: said, as a warning would be wrong for every oil.
+std::string thickness(const FluidProperties& f)
+{
+    constexpr double ofWater = 1e-3, thick = 10;     // [Pa s]
+    return f.muLiquid >= thick*ofWater ? text(" (", std::round(f.muLiquid/ofWater), " times water's: nu ", f.muLiquid/f.rhoLiquid, " m^2/s)") : "";
+}
+
 std::string fluidLine(const CaseControls& controls)
 {
     const FluidProperties& f = controls.fluid;
-    return f.isTwoPhase ? text("two, ", controls.liquidName, " rho ", f.rhoLiquid, " mu ", f.muLiquid, ", gas rho ", f.rhoGas, " mu ", f.muGas)
+    return f.isTwoPhase ? text("two, ", controls.liquidName, " rho ", f.rhoLiquid, " mu ", f.muLiquid, thickness(f), ", gas rho ", f.rhoGas, " mu ", f.muGas)
                         : text("one, rho ", f.rhoLiquid, " mu ", f.muLiquid, " (no phase field)");
 }
 

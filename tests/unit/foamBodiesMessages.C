@@ -61,6 +61,10 @@ TEST_CASE("one message for every mistake")
     CHECK(has(s.message(bodies(bar + "array { count (100000 100000 1); spacing (1 1 1); }")), "makes 1e+10 members: at most 1e+06"));
     CHECK(has(s.message(bodies("shape { type cylinder; end1 (1 1 1); end2 (1 1 1); radius 1; } density 1;")), "no length"));
     CHECK(s.message(bodies(bar + "position (0.5 0.01 0.2);")).empty()); // lies on the floor
+    const std::string two = "poses ( { position (0.5 0.5 0.2); } { position (0.5 0.7 0.2); } ); } ";
+    CHECK(has(s.message("bodies { bar.1 { " + bar + "position (1 0.5 0.2); } bar { " + bar + two + "}"), "Two bodies are called 'bar.1'"));
+    CHECK(s.message("bodies { bar.2 { " + bar + "position (1 0.5 0.2); } bar { " + bar + two + "}").empty());
+    CHECK(has(s.message("structures { p.0 { shape { type sphere; radius 0.1; } } p { shape { type sphere; radius 0.1; } array { count (2 1 1); spacing (1 0 0); } } }"), "Two structures are called 'p.0'"));
 }
 
 TEST_CASE("a value of the wrong kind: what it is and what it must be, not which token could not be read")

@@ -65,14 +65,16 @@ TEST_CASE("gravity along the empty direction of a 2D mesh is refused for two flu
     CHECK(message({0, -9.81, 0}, true).empty());
 }
 
-TEST_CASE("densities in other units, and fluids of one density")
+TEST_CASE("densities in other units, fluids of one density, viscosities")
 {
-    const auto doubts = [](double liquid, double gas, bool isTwoPhase)
+    const auto doubts = [](double liquid, double gas, bool isTwoPhase, double nuLiquid = 1e-6, double nuGas = 1.5e-5)
     {
         CaseControls controls;
         controls.liquidName = "water";
         controls.fluid.rhoLiquid = liquid;
         controls.fluid.rhoGas = gas;
+        controls.fluid.muLiquid = liquid*nuLiquid;
+        controls.fluid.muGas = gas*nuGas;
         controls.fluid.isTwoPhase = isTwoPhase;
         std::string all;
         for (const std::string& doubt : doubtfulFluids(controls)) all += doubt + "|";
@@ -83,6 +85,8 @@ TEST_CASE("densities in other units, and fluids of one density")
     CHECK(doubts(1, 0.0012, true).find("rho of water is 1 kg/m^3, less than that of any liquid") == 0);
     CHECK(doubts(1, 1, true).find("both fluids have the density 1 kg/m^3") == 0);
     CHECK(doubts(1.2, 1.2, false).empty());         // air
+    CHECK(doubts(1000, 1.2, true, 1e-6, 1.5e5).find("the gas is far more viscous than water: rho nu is 180000 and 0.001 Pa s") == 0);
+    CHECK(doubts(1000, 1.2, true, 1e-3, 1.5e-5).empty());   // a thick oil, or a dynamic viscosity
 }
 
 TEST_CASE("report of a channel with and without bodies")
