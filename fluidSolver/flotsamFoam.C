@@ -375,6 +375,7 @@ int main(int argc, char* argv[])
 
     try
     {
+        flotsam::checkFileHandler();
         flotsam::checkWriteInterval(args.rootPath()/args.globalCaseName()/"system"/Foam::Time::controlDictName);
         Foam::Time runTime(Foam::Time::controlDictName, args);
         flotsam::checkMesh(runTime);

@@ -4,6 +4,7 @@
 #include "foam/dictionaryChecks.H"
 
 #include "Time.H"
+#include "fileOperation.H"
 #include "processorPolyPatch.H"
 
 #include <algorithm>
@@ -60,6 +61,15 @@ std::string describeStray(const std::vector<std::string>& strays, const Foam::po
         described.push_back(text("'", stray, "'", meant.empty() ? "" : text(" (of ", meant.front(), "?)")));
     }
     return joined(described);
+}
+
+void checkFileHandler()
+{
+    const Foam::word& type = Foam::fileHandler().type();
+    if (!Foam::Pstream::parRun() || (type != "collated" && type != "hostCollated")) return;
+    failOnAll(text("fileHandler ", std::string(type), " is not available: every process reads and writes in its own folder processor*; allowed: uncollated, masterUncollated.\n"
+        "    Decompose with `decomposePar -fileHandler uncollated`, and run without the option -fileHandler, the environment variable FOAM_FILEHANDLER and the entry fileHandler"
+        " (OptimisationSwitches)."));
 }
 
 void checkMesh(const Foam::Time& runTime)

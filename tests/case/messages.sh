@@ -163,6 +163,11 @@ rm -rf once && cp -r good once
 [ "$(grep -c "Unknown keyword 'densty'" once.log)" -eq 1 ] || fail "an unknown keyword on two processes: not said once"
 grep -q 'file: .*/once/constant/bodies.bodies.bar ' once.log || fail "an unknown keyword on two processes: no file"
 
+rm -rf gathered && cp -r good gathered
+echo 'FoamFile { version 2.0; format ascii; class dictionary; object decomposeParDict; } numberOfSubdomains 2; method simple; coeffs { n (2 1 1); }' > gathered/system/decomposeParDict # OpenFOAM itself hangs in includes
+(cd gathered && quietly decomposePar -fileHandler collated && timeout 60 mpirun -np 2 flotsamFoam -parallel -fileHandler collated) > gathered.log 2>&1 && fail "files that OpenFOAM gathers are accepted"
+[ "$(grep -c 'fileHandler collated is not available: .* allowed: uncollated, masterUncollated' gathered.log)" -eq 1 ] || fail "files that OpenFOAM gathers: not said once"
+
 # a gate that comes down on a bar on the bed: said when it happens, and the run that it ends names the gate
 makeFloatingBar clamped
 sed -i -e 's/590/1200/' -e 's/(0 0.001 0.025)/(0 -0.0895 0.025)/' -e '/orientation/d' clamped/constant/bodies
