@@ -59,6 +59,7 @@ SceneCounts countScene(const BodiesInput& input)
     }
     for (const MoverDefinition& m : input.movers) counts.demSpheres += long(m.spheres.size());
     counts.walls = int(input.walls.size());
+    counts.areWallsChosen = input.areWallsChosen;
     return counts;
 }
 

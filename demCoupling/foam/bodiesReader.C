@@ -283,7 +283,8 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
         return input;
     }
     const auto patches = input.wallPatches = wallPatches(dict, mesh);
-    if (dict.found("wallPatches")) reportOpenWalls(mesh, patches);
+    input.areWallsChosen = dict.found("wallPatches");
+    if (input.areWallsChosen) reportOpenWalls(mesh, patches);
     const int wallMaterial = patches.empty() ? 0 : readMaterial(dict, "wallMaterial", input.materials);
     for (const std::string& name : patches)
         for (WallDefinition& wall : makeMeshWalls(mesh, mesh.boundaryMesh()[mesh.boundaryMesh().findPatchID(name)], halo, wallMaterial))

@@ -106,6 +106,12 @@ bool isOpenWall(const BoundaryPatch& patch, const SimplexMesh& mesh)
     return patch.velocity == BoundaryPatch::Velocity::Open && patch.meshPatch >= 0 && mesh.patches[patch.meshPatch].type == "wall";
 }
 
+/// Blocked to the fluid, and bodies go through it: a bed that blockMeshDict has as type patch.
+bool isWallToFluidAlone(const BoundaryPatch& patch, const SimplexMesh& mesh)
+{
+    return (patch.isWall() || patch.isNoSlipWall) && !patch.stopsBodies && patch.meshPatch >= 0 && mesh.patches[patch.meshPatch].type == "patch";
+}
+
 } // namespace
 
 void checkGravity(const FluidProperties& fluid, const SimplexMesh& mesh)
@@ -148,6 +154,10 @@ void printCaseCheck(const CaseControls& controls, const MeshAdapter& adapter, co
     for (const auto& patch : boundary) line("patch", describe(patch));
     for (const auto& patch : boundary)
         if (isOpenWall(patch, mesh)) line("warning", text("patch ", patch.name, " is of type wall, but its U lets fluid through. Give it noSlip or slip; in 2D the front and back are of type empty"));
+    for (const auto& patch : boundary)
+        if (scene.bodies > 0 && !scene.areWallsChosen && isWallToFluidAlone(patch, mesh))
+            line("warning", text("bodies pass through patch ", patch.name, ", which lets no fluid through: it is of type patch. Make it one of type wall (constant/polyMesh/boundary), or say"
+                " in constant/bodies which patches stop bodies: wallPatches (names);"));
     const bool hasLevel = std::any_of(boundary.begin(), boundary.end(), [](const BoundaryPatch& b) { return b.pressure != BoundaryPatch::Pressure::Natural; });
     if (!hasLevel) line("pressure level", text("none prescribed: in every basin mean in the gas (without gas: of all) pRefValue ", controls.fluid.pRefValue));
     if (scene.thinnestLinearBody > 0 && scene.thinnestLinearBody < counts.hMin)

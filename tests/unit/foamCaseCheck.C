@@ -89,6 +89,34 @@ TEST_CASE("densities in other units, fluids of one density, viscosities")
     CHECK(doubts(1000, 1.2, true, 1e-3, 1.5e-5).empty());   // a thick oil, or a dynamic viscosity
 }
 
+TEST_CASE("patches of type patch that are walls to the fluid alone")
+{
+    FoamCase foam("foamChannel", {{"system/blockMeshDict", "floor { type wall;", "floor { type patch;"}});
+    const CaseControls controls = readCaseControls(foam.time());
+    const MeshAdapter adapter = makeSimplexMesh(foam.mesh(), MPI_COMM_WORLD);
+    const Halo halo(adapter.mesh, MPI_COMM_WORLD);
+    auto boundary = readBoundary(foam.mesh(), adapter, halo, controls);
+    const auto says = [&](int bodies, bool areWallsChosen)
+    {
+        SceneCounts scene;
+        scene.bodies = bodies;
+        scene.thinnestBody = 1;
+        scene.areWallsChosen = areWallsChosen;
+        std::ostringstream report;
+        auto* screen = std::cout.rdbuf(report.rdbuf());
+        printCaseCheck(controls, adapter, halo, boundary, scene);
+        std::cout.rdbuf(screen);
+        const std::string all = report.str();
+        CHECK(all.find("bodies pass through patch top") == std::string::npos);     // open
+        return all.find("bodies pass through patch floor, which lets no fluid through: it is of type patch") != std::string::npos;
+    };
+    CHECK(says(1, false));
+    CHECK_FALSE(says(0, false));
+    CHECK_FALSE(says(1, true));     // wallPatches names others
+    for (BoundaryPatch& patch : boundary) patch.stopsBodies = true;
+    CHECK_FALSE(says(1, false));
+}
+
 TEST_CASE("report of a channel with and without bodies")
 {
     FoamCase foam("foamChannel");
