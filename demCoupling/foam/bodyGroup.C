@@ -52,6 +52,14 @@ Pose bodyPose(const Pose& user, const BodyGroup& group, const SceneFrame& frame)
     return pose;
 }
 
+/// Ends messages about bodies for which there is no room; empty: they are not larger than the mesh along any axis.
+std::string unitsAdvice(const Vec3& size, const Vec3& meshSize)
+{
+    if ((size.array() <= meshSize.array()).all()) return "";
+    return text("\n    It is ", size[0], " m x ", size[1], " m x ", size[2], " m, the mesh ", meshSize[0], " m x ", meshSize[1], " m x ", meshSize[2],
+        " m. Lengths are in m: an STL file in mm needs 'scale 0.001'.");
+}
+
 /// A 2D mesh computes per thickness: a body whose extent differs would have another mass than the water it displaces.
 void checkPlanar(const BodyGroup& group, const BodyDefinition& body, const SceneFrame& frame)
 {
@@ -60,7 +68,7 @@ void checkPlanar(const BodyGroup& group, const BodyDefinition& body, const Scene
     const double extent = (box[1] - box[0])[frame.planeAxis];
     if (std::abs(extent - frame.thickness) > 1e-6*frame.thickness)
         failIn(*group.dict, text("2D mesh: body ", body.name, " must reach through the mesh from front to back. Its extent along ", "xyz"[frame.planeAxis],
-            " is ", extent, " m, the mesh's ", frame.thickness, " m.\n    Use a box or cylinder of that length along ", "xyz"[frame.planeAxis], "."));
+            " is ", extent, " m, the mesh's ", frame.thickness, " m.\n    Use a box or cylinder of that length along ", "xyz"[frame.planeAxis], extent > 100*frame.thickness ? ". Lengths are in m: an STL file in mm needs 'scale 0.001'." : "."));
 }
 
 /// Of a body that is not there at the start with what is fixed alone: whether its place is free is seen when it comes in.
@@ -369,6 +377,12 @@ void placeMembers(BodyGroup& group, const SceneFrame& frame, Obstacles& obstacle
     else placeArray(group, frame);
 }
 
+Vec3 sizeOf(const BodyGroup& group, const Pose& pose)
+{
+    const auto box = ShapeAtPose{"", group.sampled, pose}.spaceBounds();
+    return box[1] - box[0];
+}
+
 void checkMembers(const BodyGroup& group, Obstacles& obstacles)
 {
     // bodies may touch, resting on each other or on a wall: a thousandth of the thickness is allowed
@@ -377,7 +391,7 @@ void checkMembers(const BodyGroup& group, Obstacles& obstacles)
     {
         if (const auto conflict = conflictOf(group, body, obstacles, -tolerance))
             failIn(*group.dict, text("Body ", body.name, " reaches ", 1000*conflict->overlap, " mm into ", conflict->with,
-                " at the start.\n    Its centre is at (", body.pose.position[0], ' ', body.pose.position[1], ' ', body.pose.position[2], "). Move it, or let 'random' find places."));
+                " at the start.\n    Its centre is at (", body.pose.position[0], ' ', body.pose.position[1], ' ', body.pose.position[2], "). Move it, or let 'random' find places.", unitsAdvice(sizeOf(group, body.pose), obstacles.box[1] - obstacles.box[0])));
         join(obstacles, group, body);
     }
 }

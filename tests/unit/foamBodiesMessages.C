@@ -36,6 +36,9 @@ TEST_CASE("one message for every mistake")
     CHECK(has(s.message(bodies(bar + at + "random {} poses ();")), "only one of"));
     const std::string outside = s.message(bodies(bar + "position (1.95 0.5 0.2);"));
     CHECK(has(outside, "Body bar reaches 50 mm into the outside of the mesh"));
+    CHECK(outside.find("STL") == std::string::npos);
+    CHECK(has(s.message(bodies("shape { type box; size (200 20 40); } density 600; position (1 0.5 0.2);")),
+        "It is 200 m x 20 m x 40 m, the mesh 2 m x 1 m x 0.4 m. Lengths are in m: an STL file in mm needs 'scale 0.001'."));
     CHECK(has(s.message(bodies(bar + "position (0.5 0.005 0.2);")), "wall floor"));
     const std::string overlap = s.message(bodies(bar + "poses ( { position (0.5 0.5 0.2); } { position (0.5 0.515 0.2); } );"));
     CHECK(has(overlap, "Body bar.1 reaches 5 mm into body bar.0"));
