@@ -189,6 +189,7 @@ void reportAnew(const CaseControls& controls, const SimplexMesh& mesh, const Hal
     reportStart(controls, mesh, halo, state, !bodies.structures.empty() || !bodies.bodies.empty());
     const std::string doubt = bodyInStream(bodies, mesh, halo, controls.fluid, state, state.time);
     if (!doubt.empty()) Foam::Info<< "Warning: " << doubt.c_str() << Foam::nl;
+    for (const std::string& late : doubtfulStart(bodies, state.time)) Foam::Info<< "Warning: " << late.c_str() << Foam::nl;
 }
 
 /// Start of the run, which takes the clock along: the state stored at the start time, or its fields where there is none; report: of these.

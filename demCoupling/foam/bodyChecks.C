@@ -13,14 +13,25 @@ namespace flotsam
 namespace
 {
 
-/// The first body that is meant, and " and n more"; empty: there is none.
-template<class IsMeant>
-std::pair<const BodyDefinition*, std::string> firstOf(const BodiesInput& input, IsMeant isMeant)
+const std::string& nameOf(const BodyDefinition& body) { return body.name; }
+const std::string& nameOf(const StructureDefinition& structure) { return structure.solid.name; }
+
+/// The first body or structure that is meant, and " and n more"; empty: there is none.
+template<class Member, class IsMeant>
+std::pair<const Member*, std::string> firstOf(const std::vector<Member>& members, IsMeant isMeant)
 {
-    const auto first = std::find_if(input.bodies.begin(), input.bodies.end(), isMeant);
-    if (first == input.bodies.end()) return {nullptr, ""};
-    const auto others = std::count_if(first + 1, input.bodies.end(), isMeant);
-    return {&*first, others > 0 ? text(first->name, " (and ", others, " more)") : first->name};
+    const auto first = std::find_if(members.begin(), members.end(), isMeant);
+    if (first == members.end()) return {nullptr, ""};
+    const auto others = std::count_if(first + 1, members.end(), isMeant);
+    return {&*first, others > 0 ? text(nameOf(*first), " (and ", others, " more)") : nameOf(*first)};
+}
+
+Pose poseAt(const StructureDefinition& s, double time)
+{
+    Pose pose = s.solid.pose;
+    Motion motion;
+    if (s.motion) s.motion(time, pose, motion);
+    return pose;
 }
 
 /// Of the contacts of this material the stiffest that is the body's own, not its spheres'; 0: some is the spheres', whose number is unknown here.
@@ -92,12 +103,12 @@ std::vector<std::string> doubtfulBodies(const BodiesInput& input, const FluidPro
 {
     std::vector<std::string> doubts;
     const auto isBalloon = [&](const BodyDefinition& b) { return fluid.isTwoPhase && b.mass < fluid.rhoGas*b.volume; };
-    if (const auto [body, who] = firstOf(input, isBalloon); body)
+    if (const auto [body, who] = firstOf(input.bodies, isBalloon); body)
         doubts.push_back(text("body ", who, " is lighter than the gas (density ", body->mass/body->volume, ", gas ", fluid.rhoGas,
             " kg/m^3) and rises in it. Densities are in kg/m^3, not over water's"));
     constexpr double densest = 22600;   // osmium [kg/m^3]
     const auto isImpossible = [&](const BodyDefinition& b) { return b.mass > densest*b.volume; };
-    if (const auto [body, who] = firstOf(input, isImpossible); body)
+    if (const auto [body, who] = firstOf(input.bodies, isImpossible); body)
         doubts.push_back(text("body ", who, " has density ", body->mass/body->volume, " kg/m^3, more than any matter: mass ", body->mass, " kg in ", body->volume,
             " m^3. Is `mass` in kg, `density` in kg/m^3, the shape in m? In 2D the mass is that of the mesh's thickness"));
 
@@ -109,15 +120,35 @@ std::vector<std::string> doubtfulBodies(const BodiesInput& input, const FluidPro
         return stiffness > 0 ? b.mass*gravity/stiffness : 0;
     };
     const auto isSoft = [&](const BodyDefinition& b) { return depth(b) > RunLog::deepOverlap*b.thinnest; };
-    if (const auto [body, who] = firstOf(input, isSoft); body)
+    if (const auto [body, who] = firstOf(input.bodies, isSoft); body)
         doubts.push_back(text("contact is too soft for body ", who, ": its weight alone (", body->mass*gravity, " N) presses it ", depth(*body), " m, ",
             std::round(100*depth(*body)/body->thinnest), " % of its thickness, into what it lies on. Give constant/bodies more `stiffness`, ",
             body->mass*gravity/(0.005*body->thinnest), " N/m for half a per cent"));
 
     const auto staysHeld = [&](const BodyDefinition& b) { return b.releaseTime > 0 && b.releaseTime >= endTime; };
-    if (const auto [body, who] = firstOf(input, staysHeld); body)
+    if (const auto [body, who] = firstOf(input.bodies, staysHeld); body)
         doubts.push_back(text("body ", who, body->entersAtRelease ? " does not enter" : " is held all the time", ": its release, at ", body->releaseTime, " s, is not before endTime, ", endTime,
             " s"));
+    return doubts;
+}
+
+std::vector<std::string> doubtfulStart(const BodiesInput& input, double time)
+{
+    std::vector<std::string> doubts;
+    const auto isOver = [&](const BodyDefinition& b) { return b.releaseTime > 0 && b.releaseTime < time; };
+    if (const auto [body, who] = firstOf(input.bodies, isOver); body)
+        doubts.push_back(text("body ", who, body->entersAtRelease ? " enters" : " is let go", " at once: its release, at ", body->releaseTime, " s, is before the start, at ", time,
+            " s. Times count from 0, not from the start"));
+    const auto hasMoved = [&](const StructureDefinition& s)
+    {
+        const Pose now = poseAt(s, time), first = poseAt(s, 0);
+        return (now.position - first.position).norm() > 1e-9 || now.orientation.angularDistance(first.orientation) > 1e-9;
+    };
+    if (const auto [structure, who] = firstOf(input.structures, hasMoved); structure)
+    {
+        const Vec3 x = poseAt(*structure, time).position;
+        doubts.push_back(text("structure ", who, " begins where ", time, " s of its motion have brought it, at (", x[0], ' ', x[1], ' ', x[2], "): `position` is that of time 0, not of the start"));
+    }
     return doubts;
 }
 

@@ -108,6 +108,21 @@ TEST_CASE("poses that are no list of groups are shown with how they are written"
     CHECK(s.message(bodies(bar + "poses ( { position (0.5 0.5 0.2); } );")).empty());
 }
 
+TEST_CASE("a start after 0: releases that are over, and motions that have gone on, are told")
+{
+    BodiesScene s;
+    const std::string gate = "structures { gate { shape { type box; size (0.1 0.1 0.1); } position (1.5 0.5 0.2); motion { type ";
+    const BodiesInput lifted = s.read(gate + "linear; velocity (0 0.01 0); } } }" + bodies(bar + "releaseTime 3; poses ( { position (0.5 0.5 0.2); } { position (0.5 0.7 0.2); } );"));
+    CHECK(doubtfulStart(lifted, 0).empty());
+    const std::vector<std::string> late = doubtfulStart(lifted, 10);
+    REQUIRE(late.size() == 2);
+    CHECK(has(late[0], "body bar.0 (and 1 more) is let go at once: its release, at 3 s, is before the start, at 10 s"));
+    CHECK(has(late[1], "structure gate begins where 10 s of its motion have brought it, at (1.5 0.6 0.2)"));
+    CHECK(doubtfulStart(lifted, 2).size() == 1);    // the gate
+    CHECK(doubtfulStart(s.read(bodies(bar + "position (0.5 0.5 0.2);")), 10).empty());      // free from 0 on
+    CHECK(doubtfulStart(s.read(gate + "oscillating; direction (0 1 0); amplitude 0.1; period 2; } } }"), 10).empty());      // back where it was
+}
+
 TEST_CASE("2D: a structure moves in the plane of the mesh and turns across it, and nothing touches front and back")
 {
     BodiesScene s(false);
