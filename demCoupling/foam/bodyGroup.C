@@ -129,7 +129,8 @@ struct RandomPlacement
     std::uint64_t seed;
 };
 
-RandomPlacement readRandom(const Foam::dictionary& dict)
+/// group: around it, whose releaseTime is that of the first body.
+RandomPlacement readRandom(const Foam::dictionary& dict, const Foam::dictionary& group)
 {
     checkKeywords(dict, {"count", "box", "seed", "minGap", "tries", "orientation", "release"});
     RandomPlacement r;
@@ -149,11 +150,14 @@ RandomPlacement readRandom(const Foam::dictionary& dict)
         r.box[0][d] = corners[0][d];
         r.box[1][d] = corners[1][d];
     }
-    r.from = r.interval = 0;
+    r.from = readNumberOr(group, "releaseTime", 0, notNegative);
+    r.interval = 0;
     if (!dict.found("release")) return r;
     const Foam::dictionary& release = subGroup(dict, "release");
     checkKeywords(release, {"from", "interval"});
-    r.from = readNumberOr(release, "from", 0, notNegative);
+    if (release.found("from") && group.found("releaseTime"))
+        failIn(release, "Both 'releaseTime' of the group and 'from' of 'release' say when the first body is released: give one of them.");
+    r.from = readNumberOr(release, "from", r.from, notNegative);
     r.interval = readNumberOr(release, "interval", 0, notNegative);
     return r;
 }
@@ -229,7 +233,9 @@ std::string mostlyInTheWay(const BodyGroup& group, const RandomPlacement& random
 void placeRandomly(BodyGroup& group, const SceneFrame& frame, Obstacles& obstacles)
 {
     const Foam::dictionary& dict = subGroup(*group.dict, "random");
-    const RandomPlacement random = readRandom(dict);
+    if (group.dict->found("position"))
+        failIn(*group.dict, "With 'random' the bodies have their places in its 'box', and 'position' does nothing: remove it.");
+    const RandomPlacement random = readRandom(dict, *group.dict);
     RandomNumbers numbers(random.seed);
     const Eigen::Quaterniond base = readOrientation(*group.dict);
     for (int i = 0; i < random.count; ++i)

@@ -10,6 +10,25 @@
 
 using namespace flotsam;
 
+TEST_CASE("random: the group's releaseTime is that of the first body; what would do nothing is refused")
+{
+    BodiesScene s;
+    const auto group = [](const std::string& ofGroup, const std::string& ofRandom)
+    { return bodies(bar + ofGroup + "random { count 3; box ((0.1 0.02 0.02) (1 0.9 0.38)); orientation fixed; " + ofRandom + "}"); };
+    const auto releases = [&](const std::string& contents)
+    {
+        std::vector<double> times;
+        for (const BodyDefinition& b : s.read(contents).bodies) times.push_back(b.releaseTime);
+        return times;
+    };
+    CHECK(releases(group("", "")) == std::vector<double>{0, 0, 0});
+    CHECK(releases(group("releaseTime 3; ", "")) == std::vector<double>{3, 3, 3});
+    CHECK(releases(group("releaseTime 3; ", "release { interval 0.5; } ")) == std::vector<double>{3, 3.5, 4});
+    CHECK(releases(group("", "release { from 1; interval 0.5; } ")) == std::vector<double>{1, 1.5, 2});
+    CHECK(has(s.message(group("releaseTime 3; ", "release { from 1; } ")), "Both 'releaseTime' of the group and 'from' of 'release'"));
+    CHECK(has(s.message(group("position (0.5 0.5 0.2); ", "")), "'position' does nothing"));
+}
+
 TEST_CASE("random places: inside the box, apart, the same for the same seed")
 {
     BodiesScene s;
