@@ -106,6 +106,15 @@ bool isOpenWall(const BoundaryPatch& patch, const SimplexMesh& mesh)
     return patch.velocity == BoundaryPatch::Velocity::Open && patch.meshPatch >= 0 && mesh.patches[patch.meshPatch].type == "wall";
 }
 
+/// Entries of the wall law that have nothing to act on; empty: none.
+std::string idleWallLaw(const NumericsControls& numerics, const std::vector<BoundaryPatch>& boundary)
+{
+    if (numerics.wallRoughness > 0 && !numerics.wallLaw)
+        return text("wallRoughness ", numerics.wallRoughness, " m does nothing: it is that of the wall law, which is off. Set wallLaw on in `flotsam`");
+    const bool hasNoSlip = std::any_of(boundary.begin(), boundary.end(), [](const BoundaryPatch& p) { return p.velocity == BoundaryPatch::Velocity::NoSlip; });
+    return numerics.wallLaw && !hasNoSlip ? "wallLaw on does nothing: it is that of no-slip patches, and there are none (structures of constant/bodies do not have it)" : "";
+}
+
 /// Blocked to the fluid, and bodies go through it: a bed that blockMeshDict has as type patch.
 bool isWallToFluidAlone(const BoundaryPatch& patch, const SimplexMesh& mesh)
 {
@@ -151,6 +160,7 @@ void printCaseCheck(const CaseControls& controls, const MeshAdapter& adapter, co
     line("time step", describe(controls.time));
     const std::string changed = changedNumerics(controls.numerics);
     line("numerics", text(changed.empty() ? "all entries of `flotsam` have their defaults" : "defaults, but " + changed, "; solvers, PIMPLE (pRefValue excepted) and fvSchemes are not used"));
+    if (const std::string idle = idleWallLaw(controls.numerics, boundary); !idle.empty()) line("warning", idle);
     for (const auto& patch : boundary) line("patch", describe(patch));
     for (const auto& patch : boundary)
         if (isOpenWall(patch, mesh)) line("warning", text("patch ", patch.name, " is of type wall, but its U lets fluid through. Give it noSlip or slip; in 2D the front and back are of type empty"));

@@ -123,7 +123,7 @@ TEST_CASE("report of a channel with and without bodies")
     CaseControls controls = readCaseControls(foam.time());
     const MeshAdapter adapter = makeSimplexMesh(foam.mesh(), MPI_COMM_WORLD);
     const Halo halo(adapter.mesh, MPI_COMM_WORLD);
-    const auto boundary = readBoundary(foam.mesh(), adapter, halo, controls);
+    auto boundary = readBoundary(foam.mesh(), adapter, halo, controls);
     SceneCounts scene;
 
     std::ostringstream report;
@@ -154,6 +154,16 @@ TEST_CASE("report of a channel with and without bodies")
     CHECK(capture(scene).find("warning") == std::string::npos);
     controls.fluid.isTwoPhase = true;
     controls.fluid.gravity = g;
+    controls.numerics.wallRoughness = 0.05;
+    CHECK(capture(scene).find("wallRoughness 0.05 m does nothing") != std::string::npos);
+    controls.numerics.wallLaw = true;
+    CHECK(capture(scene).find("warning") == std::string::npos);     // the floor is no-slip
+    auto slippery = boundary;
+    for (BoundaryPatch& patch : slippery) if (patch.isWall()) patch.velocity = BoundaryPatch::Velocity::Slip;
+    std::swap(boundary, slippery);
+    CHECK(capture(scene).find("wallLaw on does nothing: it is that of no-slip patches, and there are none") != std::string::npos);
+    std::swap(boundary, slippery);
+    controls.numerics = NumericsControls();
     scene.bodies = 20;
     scene.thinnestBody = scene.thinnestLinearBody = 0.02;
     CHECK(capture(scene).find("the fluid does not see it") != std::string::npos);
