@@ -2,6 +2,9 @@
 #include "demCoupling/foam/shapeReader.H"
 #include "foam/dictionaryChecks.H"
 
+#include "OSspecific.H"
+
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -42,6 +45,17 @@ Vec3 readDirection(const Foam::dictionary& dict, const char* keyword)
     const Vec3 v = readVec3(dict, keyword);
     if (v.norm() < 1e-12) failIn(dict, text("Entry '", keyword, "' is (0 0 0): it must be a direction."));
     return v.normalized();
+}
+
+/// A file of the folder; where it is missing what the folder has instead.
+Foam::fileName stlFile(const Foam::dictionary& dict, const Foam::fileName& folder)
+{
+    const Foam::fileName file = folder/readAs<Foam::fileName>(dict, "file", "the name of a file below constant/triSurface");
+    if (Foam::isFile(file, false)) return file;
+    std::vector<std::string> present;
+    for (const Foam::fileName& name : Foam::readDir(file.path(), Foam::fileName::FILE, false)) present.push_back(name);
+    std::sort(present.begin(), present.end());
+    failIn(dict, text("STL file ", std::string(file), " is missing; its folder ", present.empty() ? "is missing, too, or empty." : "has " + joined(present) + "."));
 }
 
 PrescribedMotion linearMotion(const Foam::dictionary& dict, const Pose& start)
@@ -123,7 +137,7 @@ std::shared_ptr<const Shape> readShape(const Foam::dictionary& dict, const Foam:
         if (type == "stl")
         {
             checkKeywords(dict, {"type", "file", "scale"});
-            return makeStl(stlFolder/readAs<Foam::fileName>(dict, "file", "the name of a file below constant/triSurface"), readNumberOr(dict, "scale", 1, positive));
+            return makeStl(stlFile(dict, stlFolder), readNumberOr(dict, "scale", 1, positive));
         }
         if (type == "union")
         {

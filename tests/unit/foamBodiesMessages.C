@@ -198,7 +198,10 @@ TEST_CASE("an open STL is refused with its file")
     const std::string message = s.message(bodies("shape { type stl; file \"open.stl\"; } density 500;"));
     CHECK(has(message, "open.stl"));
     CHECK(has(message, "the surface is open")); // so it was found and read, on every rank
-    CHECK(has(s.message(bodies("shape { type stl; file \"absent.stl\"; } density 500;")), "absent.stl"));
+    const std::string absent = s.message(bodies("shape { type stl; file \"absent.stl\"; } density 500;"));
+    CHECK(has(absent, "absent.stl is missing; its folder has "));
+    CHECK(has(absent, "open.stl"));
+    CHECK(has(s.message(bodies("shape { type stl; file \"no/absent.stl\"; } density 500;")), "its folder is missing, too, or empty."));
 }
 
 TEST_CASE("a body that is let go at rest in a stream that is there from the start is told")
