@@ -145,7 +145,7 @@ def disc(_s, t, l):
     return _round("cylinder", (-t / 2, 0, 0), (t / 2, 0, 0), r), math.hypot(r, t), min(t, 2 * r), math.pi * r**2 * t
 
 
-def brick(s, _t, l):
+def polyhedron(s, _t, l):
     """An icosahedron, or an octahedron, of three half axes."""
     g = (1 + math.sqrt(5)) / 2
     points, faces = parts.pick(s.rng, (
@@ -187,7 +187,7 @@ def _stl(s, points, faces):
     return lambda L: f"type stl; file \"{name}\"; scale {L:.9g};"
 
 
-BODIES = (rootWad, rootWad, branches, branches, jack, crate, dumbbell, disc, brick, brick, angle)
+BODIES = (rootWad, rootWad, branches, branches, jack, crate, dumbbell, disc, polyhedron, polyhedron, angle)
 
 
 # --- structures -----------------------------------------------------------------------------------------------------------
