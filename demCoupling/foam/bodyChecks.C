@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/foam/bodyChecks.H"
 
+#include "demCoupling/foam/continuedMotion.H"
 #include "foam/dictionaryChecks.H"
 #include "io/runLog.hpp"
 
@@ -24,14 +25,6 @@ std::pair<const Member*, std::string> firstOf(const std::vector<Member>& members
     if (first == members.end()) return {nullptr, ""};
     const auto others = std::count_if(first + 1, members.end(), isMeant);
     return {&*first, others > 0 ? text(nameOf(*first), " (and ", others, " more)") : nameOf(*first)};
-}
-
-Pose poseAt(const StructureDefinition& s, double time)
-{
-    Pose pose = s.solid.pose;
-    Motion motion;
-    if (s.motion) s.motion(time, pose, motion);
-    return pose;
 }
 
 /// Of the contacts of this material the stiffest that is the body's own, not its spheres'; 0: some is the spheres', whose number is unknown here.
@@ -139,11 +132,7 @@ std::vector<std::string> doubtfulStart(const BodiesInput& input, double time)
     if (const auto [body, who] = firstOf(input.bodies, isOver); body)
         doubts.push_back(text("body ", who, body->entersAtRelease ? " enters" : " is let go", " at once: its release, at ", body->releaseTime, " s, is before the start, at ", time,
             " s. Times count from 0, not from the start"));
-    const auto hasMoved = [&](const StructureDefinition& s)
-    {
-        const Pose now = poseAt(s, time), first = poseAt(s, 0);
-        return (now.position - first.position).norm() > 1e-9 || now.orientation.angularDistance(first.orientation) > 1e-9;
-    };
+    const auto hasMoved = [&](const StructureDefinition& s) { return isElsewhere(s, poseAt(s, 0), poseAt(s, time)); };
     if (const auto [structure, who] = firstOf(input.structures, hasMoved); structure)
     {
         const Vec3 x = poseAt(*structure, time).position;

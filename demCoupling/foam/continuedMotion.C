@@ -17,13 +17,21 @@ std::string textOf(const Vec3& x)
     return text('(', x[0], ' ', x[1], ' ', x[2], ')');
 }
 
+} // namespace
+
+Pose poseAt(const StructureDefinition& s, double time)
+{
+    Pose pose = s.solid.pose;
+    Motion motion;
+    if (s.motion) s.motion(time, pose, motion);
+    return pose;
+}
+
 bool isElsewhere(const StructureDefinition& s, const Pose& a, const Pose& b)
 {
     const std::array<Vec3, 2> box = s.solid.shape->bounds();
     return (a.position - b.position).norm() > noJump*(box[1] - box[0]).norm() || a.orientation.angularDistance(b.orientation) > noJump;
 }
-
-} // namespace
 
 std::string jumpingStructure(const BodiesInput& input, const std::vector<double>& solids, double time)
 {
@@ -34,9 +42,7 @@ std::string jumpingStructure(const BodiesInput& input, const std::vector<double>
         const bool moved = stored[k].kind == Solid::Kind::Prescribed;
         if (moved != bool(s.motion)) return text("'", s.solid.name, "' ", moved ? "had a `motion` and has none now" : "had no `motion` and has one now");
         if (!s.motion) continue;
-        Pose now = s.solid.pose;
-        Motion motion;
-        s.motion(time, now, motion);
+        const Pose now = poseAt(s, time);
         if (!isElsewhere(s, stored[k].pose, now)) continue;
         const Vec3 from = stored[k].pose.position, to = now.position;
         return text("'", s.solid.name, "' would jump: it is at ", textOf(from), ", and its `motion` has it at ", textOf(to), " at ", time, " s",

@@ -136,7 +136,7 @@ void RunOutput::watchCourant(const CoupledStep& step, const CourantNumbers& cour
     const auto [solid, speed] = step.scene().fastest();
     const std::string fastest = courant.bodies > courant.largest ? text("the surface of ", solid, " moves with ", speed, " m/s") : step.fluid().describeFastest();
     Foam::Info<< text("Warning: t = ", runTime_.value(), " s: the step of ", dt, " s, given by deltaT with adjustTimeStep no, has a Courant number of ", largest, ": ", fastest,
-        ". Results are wrong by a tenth and more. Set adjustTimeStep yes (maxCo ", TimeControls().maxCo, ") in system/controlDict, or a deltaT of ", RunLog::largeCourant*dt/largest,
+        ". A dam break with such steps is wrong by a tenth and more (docs/resolution.md). Set adjustTimeStep yes (maxCo ", TimeControls().maxCo, ") in system/controlDict, or a deltaT of ", RunLog::largeCourant*dt/largest,
         " s at most").c_str() << Foam::endl;
 }
 
