@@ -6,6 +6,7 @@
 #include "demCoupling/coupling/coupledStep.hpp"
 #include "demCoupling/foam/bodiesReader.H"
 #include "demCoupling/foam/bodyChecks.H"
+#include "demCoupling/foam/continuedMotion.H"
 #include "demCoupling/foam/runOutput.H"
 #include "demCoupling/foam/structureChecks.H"
 #include "foam/boundaryReader.H"
@@ -38,11 +39,11 @@ namespace
 constexpr double retryFactor = 0.5;     // of the time step after a rejected step
 constexpr int maxRetries = 8;
 
-/// Courant numbers of a time step of 1 s.
-CourantNumbers courantRates(const CoupledStep& step)
+/// Courant numbers of a time step of 1 s; ahead: as in CoupledStep::fastestSolid() [s].
+CourantNumbers courantRates(const CoupledStep& step, double ahead)
 {
     const CourantRates flow = step.fluid().courantRates();
-    return {flow.mean, flow.largest, step.bodyCourantRate()};
+    return {flow.mean, flow.largest, step.bodyCourantRate(ahead)};
 }
 
 SceneCounts countScene(const BodiesInput& input)
@@ -230,12 +231,12 @@ void warnUnwritten(const Foam::Time& runTime, const WriteTimes& writeTimes)
         << runTime.endTime().value() << " s" << Foam::nl << Foam::endl;
 }
 
-/// limit: word of nextTimeStep().
-void checkTimeStep(double wanted, const std::string& limit, const TimeControls& time, const CoupledStep& step)
+/// limit: word of nextTimeStep(); ahead: as in courantRates().
+void checkTimeStep(double wanted, const std::string& limit, const TimeControls& time, const CoupledStep& step, double ahead)
 {
     if (wanted >= time.minDeltaT) return;
     const std::string begin = text("the time step falls to ", wanted, " s at t = ", step.fluid().state().time, " s, below minDeltaT of system/controlDict, ", time.minDeltaT, " s: ");
-    const auto [solid, speed] = step.scene().fastest();
+    const auto [solid, speed] = step.fastestSolid(ahead);
     if (limit == "body")
         throw std::runtime_error(text(begin, "the surface of ", solid, " moves with ", speed, " m/s, and it may go maxBodyCo ", time.maxBodyCo,
             " elements in a step. Is that speed meant? Then give a smaller minDeltaT, or a larger maxBodyCo"));
@@ -321,7 +322,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     if (!bodies.structures.empty())
         reportThinStructures(adapter.mesh, step.fluid().graph(), halo, *step.cover(), bodies, step.scene().solids().size());
     reportPatches(controls, adapter, halo, boundary, step.fluid().state(), step.cover(), runTime.value());
-    WriteTimes writeTimes(runTime, output.firstStart(), output.lastStep());
+    WriteTimes writeTimes(runTime, output.firstStart(), output.lastStep(), controls.time.adjustTimeStep ? motionJumps(bodies) : std::vector<double>());
     output.begin(step);
     mesh.primitiveMesh::clearAddressing();  // cells, edges and the like that only the start needed; the geometry must stay: fields of the fvMesh are slices of it
     installStopSignals();
@@ -333,13 +334,14 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     while (runTime.run())
     {
         updateTimeControls(runTime, time);
-        const CourantNumbers rates = courantRates(step);
+        const double ahead = timeStepGrowth*dt;
+        const CourantNumbers rates = courantRates(step, ahead);
         checkInflow(adapter, halo, boundary, step.fluid().state(), step.cover(), runTime.value());
         auto [wanted, limit] = nextTimeStep(rates.largest, rates.bodies, time, dt);
-        checkTimeStep(wanted, limit, time, step);
+        checkTimeStep(wanted, limit, time, step, ahead);
         double used = writeTimes.setStep(wanted);
         const double before = used;
-        if (used < mostlyCut*wanted) limit = "write";
+        if (used < mostlyCut*wanted) limit = writeTimes.reason();
         const StepResult result = advance(step, time, used, output);
         if (used < before) limit = "retry";
         const bool isCut = used == before && used < 0.999*wanted;
@@ -348,7 +350,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         step.fluid().state().time = runTime.value(); // OpenFOAM's clock, to the last digit
 
         output.record(step, result, limit, rates*used);
-        if (!time.adjustTimeStep) output.watchCourant(step, courantRates(step)*used, used);
+        if (!time.adjustTimeStep) output.watchCourant(step, courantRates(step, 0)*used, used);
         const double endTime = runTime.endTime().value(); // a signal changes it
         if (write(runTime, halo, step, fields, output, timers, dt)) isComplete = runTime.value() > endTime - 0.5*used;
     }

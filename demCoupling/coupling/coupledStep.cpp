@@ -217,9 +217,9 @@ double CoupledStep::smallestCutElement() const
     return halo_.min(h);
 }
 
-double CoupledStep::bodyCourantRate() const
+double CoupledStep::bodyCourantRate(double ahead) const
 {
-    const double speed = scene_.fastest().second;
+    const double speed = fastestSolid(ahead).second;
     if (speed == 0) return 0;
     return speed/smallestCutElement();
 }

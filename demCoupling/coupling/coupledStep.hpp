@@ -49,8 +49,10 @@ public:
     const BodyCoupling* coupling() const { return coupling_.get(); }
     const Cover* cover() const { return scene_.isEmpty() ? nullptr : &builder_->cover(); }
 
-    /// Largest surface speed of the solids over the smallest cut element [1/s]; 0 without moving solids. Collective.
-    double bodyCourantRate() const;
+    /// As Scene::fastest(); ahead: of the present time, for what moves as prescribed [s].
+    std::pair<std::string, double> fastestSolid(double ahead) const { return scene_.fastest(fluid_.state().time + ahead); }
+    /// That speed over the smallest cut element [1/s]; 0 without moving solids. Collective.
+    double bodyCourantRate(double ahead) const;
     int bodiesInContact() const;
 
     /// State and loads of the solids at the present time, structures first.

@@ -74,14 +74,23 @@ std::vector<FreeBody> Scene::freeBodies(const BodyCoupling& coupling, double new
     return result;
 }
 
-std::pair<std::string, double> Scene::fastest() const
+std::pair<std::string, double> Scene::fastest(double time) const
 {
     std::pair<std::string, double> result{"", 0};
-    for (std::size_t s = 0; s < solids_.size(); ++s)
+    const auto offer = [&](std::size_t s, const Pose& pose, const Motion& motion)
     {
-        if (solids_[s].kind == Solid::Kind::Fixed) continue;
-        const double speed = fastestCorner(bounds_[s], solids_[s].pose, solids_[s].motion);
+        const double speed = fastestCorner(bounds_[s], pose, motion);
         if (speed > result.second) result = {solids_[s].name, speed};
+    };
+    for (std::size_t s = 0; s < solids_.size(); ++s)
+        if (solids_[s].kind != Solid::Kind::Fixed) offer(s, solids_[s].pose, solids_[s].motion);
+    for (std::size_t s = 0; s < structures_.size(); ++s)
+    {
+        if (!structures_[s].motion) continue;
+        Pose pose;
+        Motion motion;
+        structures_[s].motion(time, pose, motion);
+        offer(s, pose, motion);
     }
     return result;
 }

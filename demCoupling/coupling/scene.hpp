@@ -56,8 +56,8 @@ public:
         return loads;
     }
 
-    /// Of the moving solids the one with the fastest surface: its name and that speed [m/s]; nothing and 0 without one.
-    std::pair<std::string, double> fastest() const;
+    /// Of the moving solids the one with the fastest surface, now or, of what moves as prescribed, at a time [s]: its name and that speed [m/s]; nothing and 0 without one.
+    std::pair<std::string, double> fastest(double time) const;
 
     /// Poses, motions and offsets of all solids as numbers, and back (checkpoint).
     std::vector<double> save() const;

@@ -66,8 +66,10 @@ void readStructureGroup(const std::string& name, const Foam::dictionary& dict, c
         s.solid.wall = readWallKind(dict);
         s.solid.shape = shape;
         s.solid.pose = {first.position + offset, first.orientation};
-        s.motion = readMotion(dict, s.solid.pose);
-        checkPlanarMotion(dict, name, s.motion, frame);
+        const StructureMotion motion = readMotion(dict, s.solid.pose);
+        checkPlanarMotion(dict, name, motion.law, frame);
+        s.motion = motion.timed();
+        s.clock = motion.clock;
         s.solid.kind = s.motion ? Solid::Kind::Prescribed : Solid::Kind::Fixed;
         if (s.motion) s.motion(0, s.solid.pose, s.solid.motion);
         readContactSpheres(dict, frame, s);

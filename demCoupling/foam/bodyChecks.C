@@ -122,6 +122,9 @@ std::vector<std::string> doubtfulBodies(const BodiesInput& input, const FluidPro
     if (const auto [body, who] = firstOf(input.bodies, staysHeld); body)
         doubts.push_back(text("body ", who, body->entersAtRelease ? " does not enter" : " is held all the time", ": its release, at ", body->releaseTime, " s, is not before endTime, ", endTime,
             " s"));
+    const auto staysStill = [&](const StructureDefinition& s) { return s.motion && s.clock.start > 0 && s.clock.start >= endTime; };
+    if (const auto [structure, who] = firstOf(input.structures, staysStill); structure)
+        doubts.push_back(text("structure ", who, " does not move: the timeStart of its motion, ", structure->clock.start, " s, is not before endTime, ", endTime, " s"));
     return doubts;
 }
 

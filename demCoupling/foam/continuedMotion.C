@@ -27,6 +27,17 @@ Pose poseAt(const StructureDefinition& s, double time)
     return pose;
 }
 
+std::vector<double> motionJumps(const BodiesInput& input)
+{
+    std::vector<double> times;
+    for (const StructureDefinition& s : input.structures)
+    {
+        const std::vector<double> own = s.clock.jumps();
+        times.insert(times.end(), own.begin(), own.end());
+    }
+    return times;
+}
+
 bool isElsewhere(const StructureDefinition& s, const Pose& a, const Pose& b)
 {
     const std::array<Vec3, 2> box = s.solid.shape->bounds();

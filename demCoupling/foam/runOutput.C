@@ -133,7 +133,7 @@ void RunOutput::watchCourant(const CoupledStep& step, const CourantNumbers& cour
 {
     const double largest = std::max(courant.largest, courant.bodies);
     if (largest <= RunLog::largeCourant || ++longSteps_ > 1) return;
-    const auto [solid, speed] = step.scene().fastest();
+    const auto [solid, speed] = step.fastestSolid(0);
     const std::string fastest = courant.bodies > courant.largest ? text("the surface of ", solid, " moves with ", speed, " m/s") : step.fluid().describeFastest();
     Foam::Info<< text("Warning: t = ", runTime_.value(), " s: the step of ", dt, " s, given by deltaT with adjustTimeStep no, has a Courant number of ", largest, ": ", fastest,
         ". A dam break with such steps is wrong by a tenth and more (docs/resolution.md). Set adjustTimeStep yes (maxCo ", TimeControls().maxCo, ") in system/controlDict, or a deltaT of ", RunLog::largeCourant*dt/largest,

@@ -14,7 +14,7 @@ namespace flotsam
 namespace
 {
 
-const std::vector<std::string> shapeTypes{"box", "sphere", "cylinder", "capsule", "stl", "union"}, motionTypes{"linear", "oscillating", "rotating"};
+const std::vector<std::string> shapeTypes{"box", "sphere", "cylinder", "capsule", "stl", "union"};
 
 Vec3 readSize(const Foam::dictionary& dict)
 {
@@ -40,13 +40,6 @@ std::shared_ptr<const Shape> readParts(const Foam::dictionary& dict, const Foam:
     return makeUnion(parts);
 }
 
-Vec3 readDirection(const Foam::dictionary& dict, const char* keyword)
-{
-    const Vec3 v = readVec3(dict, keyword);
-    if (v.norm() < 1e-12) failIn(dict, text("Entry '", keyword, "' is (0 0 0): it must be a direction."));
-    return v.normalized();
-}
-
 /// A file of the folder; where it is missing what the folder has instead.
 Foam::fileName stlFile(const Foam::dictionary& dict, const Foam::fileName& folder)
 {
@@ -56,47 +49,6 @@ Foam::fileName stlFile(const Foam::dictionary& dict, const Foam::fileName& folde
     for (const Foam::fileName& name : Foam::readDir(file.path(), Foam::fileName::FILE, false)) present.push_back(name);
     std::sort(present.begin(), present.end());
     failIn(dict, text("STL file ", std::string(file), " is missing; its folder ", present.empty() ? "is missing, too, or empty." : "has " + joined(present) + "."));
-}
-
-PrescribedMotion linearMotion(const Foam::dictionary& dict, const Pose& start)
-{
-    checkKeywords(dict, {"type", "velocity"});
-    return [start, v = readVec3(dict, "velocity")](double time, Pose& pose, Motion& motion)
-    {
-        pose = start;
-        pose.position += v*time;
-        motion = {v, Vec3::Zero()};
-    };
-}
-
-PrescribedMotion oscillation(const Foam::dictionary& dict, const Pose& start)
-{
-    checkKeywords(dict, {"type", "direction", "amplitude", "period", "frequency", "phaseDeg"});
-    if (dict.found("period") == dict.found("frequency")) failIn(dict, "Give either 'period' [s] or 'frequency' [Hz].");
-    const double frequency = dict.found("period") ? 1/readNumber(dict, "period", positive) : readNumber(dict, "frequency", positive);
-    const Vec3 amplitude = readDirection(dict, "direction")*readNumber(dict, "amplitude", notNegative);
-    const double phase = readNumberOr(dict, "phaseDeg", 0, {-360, 360})*M_PI/180, omega = 2*M_PI*frequency;
-    return [start, amplitude, phase, omega](double time, Pose& pose, Motion& motion)
-    {
-        // starts from the given place whatever the phase
-        pose = start;
-        pose.position += amplitude*(std::sin(omega*time + phase) - std::sin(phase));
-        motion = {amplitude*(omega*std::cos(omega*time + phase)), Vec3::Zero()};
-    };
-}
-
-PrescribedMotion rotation(const Foam::dictionary& dict, const Pose& start)
-{
-    checkKeywords(dict, {"type", "origin", "axis", "rpm", "omega"});
-    if (dict.found("rpm") == dict.found("omega")) failIn(dict, "Give either 'rpm' or 'omega' [rad/s].");
-    const double omega = dict.found("rpm") ? readNumber(dict, "rpm", {-1e6, 1e6})*M_PI/30 : readNumber(dict, "omega", {-1e6, 1e6});
-    return [start, omega, origin = readVec3Or(dict, "origin", start.position), axis = readDirection(dict, "axis")](double time, Pose& pose, Motion& motion)
-    {
-        const Eigen::Quaterniond turned(Eigen::AngleAxisd(omega*time, axis));
-        const Vec3 arm = turned*(start.position - origin);
-        pose = {origin + arm, turned*start.orientation};
-        motion = {(omega*axis).cross(arm), omega*axis};
-    };
 }
 
 } // namespace
@@ -110,6 +62,13 @@ Vec3 readVec3(const Foam::dictionary& dict, const char* keyword)
 Vec3 readVec3Or(const Foam::dictionary& dict, const char* keyword, const Vec3& byDefault)
 {
     return dict.found(keyword) ? readVec3(dict, keyword) : byDefault;
+}
+
+Vec3 readDirection(const Foam::dictionary& dict, const char* keyword)
+{
+    const Vec3 v = readVec3(dict, keyword);
+    if (v.norm() < 1e-12) failIn(dict, text("Entry '", keyword, "' is (0 0 0): it must be a direction."));
+    return v.normalized();
 }
 
 std::shared_ptr<const Shape> readShape(const Foam::dictionary& dict, const Foam::fileName& stlFolder)
@@ -164,17 +123,6 @@ Eigen::Quaterniond readOrientation(const Foam::dictionary& parent)
 Pose readPose(const Foam::dictionary& dict)
 {
     return {readVec3Or(dict, "position", Vec3::Zero()), readOrientation(dict)};
-}
-
-PrescribedMotion readMotion(const Foam::dictionary& parent, const Pose& start)
-{
-    if (!parent.found("motion")) return {};
-    const Foam::dictionary& dict = subGroup(parent, "motion");
-    const std::string type = readWord(dict, "type", motionTypes);
-    if (type == "linear") return linearMotion(dict, start);
-    if (type == "oscillating") return oscillation(dict, start);
-    if (type == "rotating") return rotation(dict, start);
-    failUnknown(dict, "motion type", type, motionTypes);
 }
 
 PrincipalShape toPrincipalFrame(std::shared_ptr<const Shape> shape)

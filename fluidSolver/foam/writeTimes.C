@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace flotsam
 {
@@ -21,6 +22,14 @@ struct ClockAccess : Foam::Time
 };
 
 constexpr double excess = 0.01;    // of the wanted step that a step may take besides to end at a write time, as Time's own
+constexpr double nothing = 1e-6;    // of a step: a jump so near has been met
+constexpr double few = 2;           // steps before a jump from which on they are made to meet it: none is less than half as long as wanted
+
+/// The longest step of at most `wanted` of which a whole number lies in `left`; all in s.
+double wholeSteps(double left, double wanted)
+{
+    return left/std::max(1.0, std::ceil(left/wanted - excess));
+}
 
 /// Number of write times from `first` to `time`, as Time counts them: one less than half a step ahead has come.
 double count(const Foam::Time& clock, double first, double time, double step)
@@ -30,8 +39,8 @@ double count(const Foam::Time& clock, double first, double time, double step)
 
 } // namespace
 
-WriteTimes::WriteTimes(Foam::Time& clock, double first, double lastStep)
-:   clock_(clock), first_(first), time_(clock.value()), lastStep_(lastStep)
+WriteTimes::WriteTimes(Foam::Time& clock, double first, double lastStep, std::vector<double> jumps)
+:   clock_(clock), first_(first), time_(clock.value()), lastStep_(lastStep), jumps_(std::move(jumps))
 {}
 
 double WriteTimes::setStep(double wanted)
@@ -40,7 +49,17 @@ double WriteTimes::setStep(double wanted)
     if (ClockAccess::isAdjusted(clock_))
     {
         const double left = first_ + (count(clock_, first_, time_, lastStep_) + 1)*ClockAccess::interval(clock_) - time_;
-        step = left/std::max(1.0, std::ceil(left/wanted - excess));
+        step = wholeSteps(left, wanted);
+    }
+    isToJump_ = false;
+    for (const double jump : jumps_)
+    {
+        const double left = jump - time_;
+        if (left < nothing*step || left > few*step) continue;
+        const double shorter = wholeSteps(left, wanted);
+        if (shorter >= step) continue;
+        step = shorter;
+        isToJump_ = true;
     }
     clock_.setDeltaT(step, false);
     clock_.functionObjects().adjustTimeStep();

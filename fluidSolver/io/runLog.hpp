@@ -69,7 +69,7 @@ struct StepReport
 {
     long step = 0;
     double time = 0, dt = 0;        ///< [s]
-    std::string limit;              ///< what limits dt, one word: flow, body, cap, write, growth, retry
+    std::string limit;              ///< what limits dt, one word: flow, body, cap, write, motion, growth, retry
     int linearIterations = 0;
     int contactRepeats = 0;
     double massError = 0;           ///< MassBalance::relativeError()

@@ -2,6 +2,7 @@
 /// constant/bodies: one message for every mistake.
 #include "demCoupling/foam/repeatedGroups.hpp"
 #include "demCoupling/foam/bodyChecks.H"
+#include "demCoupling/foam/continuedMotion.H"
 #include "support/bodiesScene.H"
 #include "support/near.hpp"
 
@@ -123,6 +124,24 @@ TEST_CASE("a start after 0: releases that are over, and motions that have gone o
     CHECK(doubtfulStart(s.read(gate + "oscillating; direction (0 1 0); amplitude 0.1; period 2; } } }"), 10).empty());      // back where it was
 }
 
+TEST_CASE("times of a motion that leave no time to move, or none before the end of the run, are told")
+{
+    BodiesScene s;
+    const auto text = [](const std::string& times)
+    { return "structures { gate { shape { type box; size (0.1 0.1 0.1); } position (1.5 0.5 0.2); motion { type linear; velocity (0 0.01 0); " + times + " } } }"; };
+    CHECK(has(s.message(text("timeStart 2; timeEnd 2;")), "The motion ends at timeEnd 2 s, but begins at timeStart 2 s: timeEnd must be later"));
+    CHECK(has(s.message(text("timeStart 2; timeEnd 3; rampTime 0.6;")), "Give a rampTime of 0.5 s at most"));
+    CHECK(has(s.message(text("timeStrat 2;")), "Did you mean: timeStart"));
+    CHECK(s.message(text("timeStart 2; timeEnd 3; rampTime 0.5;")).empty());
+    const auto doubts = [&](const std::string& times) { return doubtfulBodies(s.read(text(times)), FluidProperties(), 5); };
+    CHECK(doubts("timeStart 4.9;").empty());
+    REQUIRE(doubts("timeStart 5;").size() == 1);
+    CHECK(has(doubts("timeStart 5;")[0], "structure gate does not move: the timeStart of its motion, 5 s, is not before endTime, 5 s"));
+    CHECK(motionJumps(s.read(text("timeStart 2; timeEnd 3;"))) == std::vector<double>{2, 3});
+    CHECK(motionJumps(s.read(text("timeStart 2; timeEnd 3; rampTime 0.2;"))).empty());
+    CHECK(doubtfulStart(s.read(text("timeStart 20;")), 10).empty());    // has not moved yet
+}
+
 TEST_CASE("2D: a structure moves in the plane of the mesh and turns across it, and nothing touches front and back")
 {
     BodiesScene s(false);
@@ -134,6 +153,7 @@ TEST_CASE("2D: a structure moves in the plane of the mesh and turns across it, a
     CHECK(has(message("type linear; velocity (1 0 0.5);"), "velocity of structure gate along z is 0.5; allowed: 0"));
     CHECK(has(message("type oscillating; direction (0 0 1); amplitude 0.1; period 1; phaseDeg 90;"), "velocity of structure gate along z"));
     CHECK(has(message("type rotating; axis (1 0 0); omega 2;"), "angularVelocity of structure gate along x is 2; allowed: 0"));
+    CHECK(has(message("type linear; velocity (1 0 0.5); timeStart 7; timeEnd 9; rampTime 1;"), "velocity of structure gate along z is 0.5; allowed: 0"));
     CHECK(message("type linear; velocity (1 -2 0);").empty());
     CHECK(message("type oscillating; direction (1 1 0); amplitude 0.1; period 1;").empty());
     CHECK(message("type rotating; axis (0 0 -3); rpm 20; origin (1.4 0.5 0);").empty());

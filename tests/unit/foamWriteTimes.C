@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace flotsam;
@@ -14,6 +15,7 @@ namespace
 {
 
 constexpr double interval = 0.1, begin = 0.23, shortest = 0.03, longest = 0.05;
+const std::vector<double> jumps{0.1, begin, 0.5, 0.63, 0.6302, 1.0111, 2.2};   // some before the run, at write times or beside each other
 
 struct Record
 {
@@ -33,7 +35,7 @@ public:
         records_(past)
     {
         if (!past.empty()) clock_.setTime(past.back().time, Foam::label(past.size()));
-        times_ = std::make_unique<WriteTimes>(clock_, begin, past.empty() ? 0 : past.back().step);
+        times_ = std::make_unique<WriteTimes>(clock_, begin, past.empty() ? 0 : past.back().step, jumps);
     }
 
     std::vector<Record> to(std::size_t nSteps)
@@ -68,6 +70,20 @@ TEST_CASE("a run that goes on from any step makes the same steps and meets the s
             CAPTURE(stop);
             CHECK(Run(control, {records.begin(), records.begin() + stop}).to(60) == records);
         }
+    }
+}
+
+TEST_CASE("steps end at jumps, by none that is less than half as long as wanted unless two jumps or a write time are nearer than that")
+{
+    for (const char* control : {"adjustableRunTime", "runTime"})
+    {
+        CAPTURE(control);
+        const std::vector<Record> records = Run(control).to(80);
+        REQUIRE(records.back().time > jumps.back());
+        for (const double jump : jumps)
+            if (jump > begin) CHECK(std::any_of(records.begin(), records.end(), [&](const Record& r) { return std::abs(r.time - jump) < 1e-13; }));
+        const auto isShort = [](const Record& r) { return r.step < 0.5*shortest; };
+        CHECK(std::count_if(records.begin(), records.end(), isShort) <= (control == std::string("adjustableRunTime") ? 4 : 1));
     }
 }
 
