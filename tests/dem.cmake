@@ -11,6 +11,7 @@ flotsam_test(demMotion verification SOURCES verification/demMotion.cpp ${dem_sup
 flotsam_test(demContact verification SOURCES verification/demContact.cpp ${dem_support} LIBRARIES flotsam_liggghts)
 flotsam_test(couplingRecord unit SOURCES unit/couplingRecord.cpp LIBRARIES flotsam_coupling)
 flotsam_test(motionClock unit SOURCES unit/motionClock.cpp LIBRARIES flotsam_dem_core)
+flotsam_test(motionTable unit SOURCES unit/motionTable.cpp LIBRARIES flotsam_dem_core)
 flotsam_test(motionCheck unit SOURCES unit/motionCheck.cpp LIBRARIES flotsam_coupling)
 flotsam_test(addedInertia unit SOURCES unit/addedInertia.cpp LIBRARIES flotsam_coupling)
 flotsam_test(smoothMotion unit SOURCES unit/smoothMotion.cpp LIBRARIES flotsam_coupling)

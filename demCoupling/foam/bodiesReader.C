@@ -33,15 +33,14 @@ Solid::Wall readWallKind(const Foam::dictionary& dict)
     failUnknown(dict, "wall", kind, {"noSlip", "slip"});
 }
 
-/// At times of no common period: an oscillation may turn back at one of them.
-void checkPlanarMotion(const Foam::dictionary& dict, const std::string& name, const PrescribedMotion& prescribed, const SceneFrame& frame)
+void checkPlanarMotion(const Foam::dictionary& dict, const std::string& name, const StructureMotion& prescribed, const SceneFrame& frame)
 {
-    if (!prescribed) return;
-    for (const double time : {0.0, 1.0, M_SQRT2})
+    if (!prescribed.law) return;
+    for (const double time : prescribed.samples)
     {
         Pose pose;
         Motion motion;
-        prescribed(time, pose, motion);
+        prescribed.law(time, pose, motion);
         checkPlanarMotion(subGroup(dict, "motion"), "structure " + name, motion, frame);
     }
 }
@@ -67,7 +66,7 @@ void readStructureGroup(const std::string& name, const Foam::dictionary& dict, c
         s.solid.shape = shape;
         s.solid.pose = {first.position + offset, first.orientation};
         const StructureMotion motion = readMotion(dict, s.solid.pose);
-        checkPlanarMotion(dict, name, motion.law, frame);
+        checkPlanarMotion(dict, name, motion, frame);
         s.motion = motion.timed();
         s.clock = motion.clock;
         s.solid.kind = s.motion ? Solid::Kind::Prescribed : Solid::Kind::Fixed;

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/foam/motionReader.H"
 
+#include "demCoupling/core/motionTable.hpp"
 #include "demCoupling/foam/shapeReader.H"
 #include "foam/dictionaryChecks.H"
 
+#include "Tuple2.H"
+#include "vector.H"
+
 #include <cmath>
+#include <utility>
 
 namespace flotsam
 {
@@ -12,7 +17,7 @@ namespace flotsam
 namespace
 {
 
-const std::vector<std::string> motionTypes{"linear", "oscillating", "rotating"};
+const std::vector<std::string> motionTypes{"linear", "oscillating", "rotating", "tabulated"};
 
 /// Entries of a motion's dictionary.
 std::vector<std::string> withTimes(std::vector<std::string> ofType)
@@ -63,6 +68,42 @@ PrescribedMotion rotation(const Foam::dictionary& dict, const Pose& start)
     };
 }
 
+/// displacement ( (time (x y z)) .. )
+std::vector<MotionTable::Point> readTable(const Foam::dictionary& dict)
+{
+    using Row = Foam::Tuple2<Foam::scalar, Foam::vector>;
+    const auto rows = readAs<Foam::List<Row>>(dict, "displacement", "a list of times [s] and displacements [m]: ( (0 (0 0 0)) (2 (0 0 0.1)) )");
+    if (rows.size() < 2) failIn(dict, text("'displacement' has ", rows.size(), rows.size() == 1 ? " row" : " rows", ": give two at least."));
+    std::vector<MotionTable::Point> points;
+    for (const Row& row : rows)
+    {
+        const Foam::vector& x = row.second();
+        if (!points.empty() && row.first() <= points.back().time)
+            failIn(dict, text("Times in 'displacement' must rise: ", row.first(), " s follows ", points.back().time, " s."));
+        points.push_back({row.first(), Vec3(x.x(), x.y(), x.z())});
+    }
+    return points;
+}
+
+/// The table has its own times: it begins and ends at rest.
+StructureMotion tabulated(const Foam::dictionary& dict, const Pose& start)
+{
+    checkKeywords(dict, {"type", "displacement", "timeStart"});
+    const std::vector<MotionTable::Point> points = readTable(dict);
+    StructureMotion result;
+    result.samples.clear();
+    for (std::size_t i = 1; i < points.size(); ++i) result.samples.push_back(0.5*(points[i - 1].time + points[i].time));
+    result.law = [start, table = MotionTable(points)](double time, Pose& pose, Motion& motion)
+    {
+        const auto [displacement, velocity] = table.at(time);
+        pose = start;
+        pose.position += displacement;
+        motion = {velocity, Vec3::Zero()};
+    };
+    result.clock.start = readNumberOr(dict, "timeStart", 0, notNegative);
+    return result;
+}
+
 MotionClock readClock(const Foam::dictionary& dict)
 {
     MotionClock clock;
@@ -75,6 +116,14 @@ MotionClock readClock(const Foam::dictionary& dict)
         failIn(dict, text("The motion takes ", clock.end - clock.start, " s, from timeStart to timeEnd: too short for two ramps of rampTime ", clock.ramp, " s, up to speed and to rest. Give a rampTime of ",
             0.5*(clock.end - clock.start), " s at most."));
     return clock;
+}
+
+StructureMotion withClock(PrescribedMotion law, const Foam::dictionary& dict)
+{
+    StructureMotion result;
+    result.law = std::move(law);
+    result.clock = readClock(dict);
+    return result;
 }
 
 } // namespace
@@ -96,9 +145,10 @@ StructureMotion readMotion(const Foam::dictionary& parent, const Pose& start)
     if (!parent.found("motion")) return {};
     const Foam::dictionary& dict = subGroup(parent, "motion");
     const std::string type = readWord(dict, "type", motionTypes);
-    if (type == "linear") return {linearMotion(dict, start), readClock(dict)};
-    if (type == "oscillating") return {oscillation(dict, start), readClock(dict)};
-    if (type == "rotating") return {rotation(dict, start), readClock(dict)};
+    if (type == "linear") return withClock(linearMotion(dict, start), dict);
+    if (type == "oscillating") return withClock(oscillation(dict, start), dict);
+    if (type == "rotating") return withClock(rotation(dict, start), dict);
+    if (type == "tabulated") return tabulated(dict, start);
     failUnknown(dict, "motion type", type, motionTypes);
 }
 

@@ -205,7 +205,8 @@ TEST_CASE("prescribed motions: the velocity is the derivative of the pose")
     BodiesScene s;
     const std::string shape = "structures { gate { shape { type box; size (0.1 0.1 0.1); } position (1 0.5 0.2); motion { ";
     for (const std::string motion : {"type linear; velocity (1 2 0);", "type oscillating; direction (0 2 0); amplitude 0.1; period 2; phaseDeg 40;",
-        "type rotating; origin (1.2 0.5 0.2); axis (0 0 1); rpm 30;", "type rotating; axis (0 0 1); rpm 30; timeStart 0.2; timeEnd 0.9; rampTime 0.25;"})
+        "type rotating; origin (1.2 0.5 0.2); axis (0 0 1); rpm 30;", "type rotating; axis (0 0 1); rpm 30; timeStart 0.2; timeEnd 0.9; rampTime 0.25;",
+        "type tabulated; displacement ((0 (0 0 0)) (0.2 (0.1 0 0.1)) (0.5 (0.1 0 0.3)));", "type tabulated; timeStart 0.1; displacement ((0 (0 0 0)) (0.8 (0.1 0 0.1)));"})
     {
         const auto input = s.read(shape + motion + " } } }");
         const auto& gate = input.structures[0];

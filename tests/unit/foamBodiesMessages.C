@@ -142,6 +142,18 @@ TEST_CASE("times of a motion that leave no time to move, or none before the end 
     CHECK(doubtfulStart(s.read(text("timeStart 20;")), 10).empty());    // has not moved yet
 }
 
+TEST_CASE("tables of a motion need two rows of rising times")
+{
+    BodiesScene s;
+    const auto message = [&](const std::string& entries)
+    { return s.message("structures { gate { shape { type box; size (0.1 0.1 0.1); } position (1.5 0.5 0.2); motion { type tabulated; " + entries + " } } }"); };
+    CHECK(has(message("displacement ((0 (0 0 0)));"), "'displacement' has 1 row: give two at least"));
+    CHECK(has(message("displacement ((0 (0 0 0)) (1 (0 0 0.1)) (1 (0 0 0.2)));"), "Times in 'displacement' must rise: 1 s follows 1 s"));
+    CHECK(has(message("displacement ((0 0) (1 0.1));"), "a list of times [s] and displacements [m]"));
+    CHECK(has(message("displacement ((0 (0 0 0)) (1 (0 0 0.1))); rampTime 1;"), "rampTime"));
+    CHECK(message("displacement ((0 (0 0 0)) (1 (0 0 0.1))); timeStart 1;").empty());
+}
+
 TEST_CASE("2D: a structure moves in the plane of the mesh and turns across it, and nothing touches front and back")
 {
     BodiesScene s(false);
@@ -154,6 +166,8 @@ TEST_CASE("2D: a structure moves in the plane of the mesh and turns across it, a
     CHECK(has(message("type oscillating; direction (0 0 1); amplitude 0.1; period 1; phaseDeg 90;"), "velocity of structure gate along z"));
     CHECK(has(message("type rotating; axis (1 0 0); omega 2;"), "angularVelocity of structure gate along x is 2; allowed: 0"));
     CHECK(has(message("type linear; velocity (1 0 0.5); timeStart 7; timeEnd 9; rampTime 1;"), "velocity of structure gate along z is 0.5; allowed: 0"));
+    CHECK(has(message("type tabulated; displacement ((3 (0 0 0)) (4 (0.1 0 0)) (5 (0.1 0 0.1)));"), "velocity of structure gate along z"));
+    CHECK(message("type tabulated; displacement ((3 (0 0 0)) (4 (0.1 0.2 0)));").empty());
     CHECK(message("type linear; velocity (1 -2 0);").empty());
     CHECK(message("type oscillating; direction (1 1 0); amplitude 0.1; period 1;").empty());
     CHECK(message("type rotating; axis (0 0 -3); rpm 20; origin (1.4 0.5 0);").empty());
