@@ -8,6 +8,7 @@
 #include "demCoupling/foam/bodyChecks.H"
 #include "demCoupling/foam/continuedMotion.H"
 #include "demCoupling/foam/runOutput.H"
+#include "demCoupling/foam/runScene.H"
 #include "demCoupling/foam/structureChecks.H"
 #include "foam/boundaryReader.H"
 #include "foam/caseCheck.H"
@@ -19,7 +20,6 @@
 #include "foam/startReport.H"
 #include "foam/writeTimes.H"
 
-#include "algebra/needlessWork.hpp"
 #include "core/bodyWalls.hpp"
 #include "core/nextTimeStep.hpp"
 #include "io/stopSignal.hpp"
@@ -44,54 +44,6 @@ CourantNumbers courantRates(const CoupledStep& step, double ahead)
 {
     const CourantRates flow = step.fluid().courantRates();
     return {flow.mean, flow.largest, step.bodyCourantRate(ahead)};
-}
-
-SceneCounts countScene(const BodiesInput& input)
-{
-    SceneCounts counts;
-    for (const StructureDefinition& s : input.structures) ++(s.motion ? counts.movingStructures : counts.fixedStructures);
-    counts.bodies = int(input.bodies.size());
-    counts.thinnestBody = thinnestBody(input);
-    counts.thinnestLinearBody = thinnestLinearBody(input);
-    for (const BodyDefinition& b : input.bodies)
-    {
-        counts.bodiesToCome += b.entersAtRelease;
-        counts.demSpheres += long(b.spheres.size() + b.corners.size());
-    }
-    for (const MoverDefinition& m : input.movers) counts.demSpheres += long(m.spheres.size());
-    counts.walls = int(input.walls.size());
-    counts.areWallsChosen = input.areWallsChosen;
-    return counts;
-}
-
-Scene makeScene(const BodiesInput& input, const Vec3& gravity)
-{
-    std::vector<SceneStructure> structures;
-    for (const StructureDefinition& s : input.structures) structures.push_back({s.solid, s.wall, s.motion});
-    return Scene(structures, input.bodies, gravity);
-}
-
-void checkEntries(const BodiesInput& input, const FluidProperties& fluid)
-{
-    for (const BodyDefinition& body : input.bodies)
-        if (body.entersAtRelease && !fluid.isTwoPhase)
-            throw std::runtime_error("constant/bodies: body " + body.name + " is absent before its release (beforeRelease absent), but there is no gas through which"
-                " it could come in: the case has one fluid. Use 'beforeRelease held', or two fluids");
-}
-
-DemSetup makeDemSetup(const BodiesInput& input, double timeStep, double startTime)
-{
-    DemSetup setup;
-    setup.bodies = input.bodies;
-    setup.walls = input.walls;
-    setup.movers = input.movers;
-    setup.startTime = startTime;
-    setup.nMaterials = int(input.materials.size());
-    setup.laws = input.laws;
-    setup.box = input.box;
-    setup.timeStep = timeStep;
-    setup.hasContactStepsOnly = doesNeedless("demSteps");
-    return setup;
 }
 
 /// Ends messages about fluid that has become too fast: what has made it so beside structures that move.
