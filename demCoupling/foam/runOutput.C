@@ -158,8 +158,8 @@ std::string RunOutput::overlapAdvice(const BodyCoupling* bodies) const
     const std::string mover = bodies->pressingMover().empty() ? clampedBy_ : bodies->pressingMover();
     return text("the contact surfaces of ", bodies->deepestPair(), " overlap by ", bodies->largestOverlap(), " m, ", std::round(100*bodies->largestOverlap()/thinnestBody_),
         " % of the thinnest body. ", mover.empty() ? "Contact is too soft: give constant/bodies more `stiffness`"
-        : "Structure " + mover + " moves as prescribed whatever is in its way, and presses them together: have it end before, by the run's endTime or a motion that"
-            " leaves room, or take out of its way what it clamps");
+        : "Structure " + mover + " moves as prescribed whatever is in its way, and presses them together: let it stop before, by timeEnd of its motion, move it where"
+            " it leaves room, or take out of its way what it clamps");
 }
 
 /// Said once.
