@@ -87,6 +87,14 @@ void writeContent(Hdf5File& out, const RunState& state)
     out.setAttribute("/", "complete", std::int64_t(1)); // last: its absence means the writer was interrupted
 }
 
+/// OpenFOAM's tools and function objects that list what a time folder holds (reconstructPar, foamToVTK, surfaces) read the head of every file in it, and
+/// warn of those that have none.
+std::string headForOpenFOAM(const std::string& file)
+{
+    const std::string name = file.substr(file.rfind('/') + 1); // all of it without a '/'
+    return "FoamFile\n{\n    version     2.0;\n    format      binary;\n    class       flotsamState;\n    object      " + name + ";\n}\n";
+}
+
 void checkReadable(const std::string& file)
 {
     if (::access(file.c_str(), R_OK) != 0) throw std::runtime_error(file + ": cannot read the checkpoint (" + std::strerror(errno) + ")");
@@ -167,7 +175,7 @@ auto readUndamaged(Read read)
 void writeCheckpoint(const std::string& file, const RunState& state)
 {
     const std::string temporary = file + ".tmp";
-    Hdf5File out(temporary, Hdf5File::Mode::Create);
+    Hdf5File out(temporary, Hdf5File::Mode::Create, headForOpenFOAM(file));
     writeContent(out, state);
     out.close();
     syncToDisk(temporary);

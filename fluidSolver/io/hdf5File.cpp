@@ -4,6 +4,7 @@
 #include "io/hdf5Calls.hpp"
 
 #include <algorithm>
+#include <fstream>
 #include <stdexcept>
 #include <type_traits>
 
@@ -64,7 +65,8 @@ constexpr hsize_t arrayBlock = 1 << 17; // values per checksummed block: 1 MiB
 
 } // namespace
 
-Hdf5File::Hdf5File(const std::string& file, Mode mode) : file_(file)
+Hdf5File::Hdf5File(const std::string& file, Mode mode, const std::string& preamble)
+:   file_(file), preamble_(preamble)
 {
     const Hdf5Silence silence;
     const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -76,11 +78,29 @@ Hdf5File::Hdf5File(const std::string& file, Mode mode) : file_(file)
 
     switch (mode)
     {
-        case Mode::Create: id_ = H5Fcreate(file.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access); break;
+        case Mode::Create: create(access); break;
         case Mode::ReadWrite: id_ = H5Fopen(file.c_str(), H5F_ACC_RDWR, access); break;
         case Mode::Read: id_ = H5Fopen(file.c_str(), H5F_ACC_RDONLY, access); break;
     }
     if (id_ < 0) fail(mode == Mode::Create ? "cannot create the file" : "cannot open the file", "");
+}
+
+void Hdf5File::create(Id access)
+{
+    // Its size is a power of two from 512 on: there HDF5 looks for its content.
+    hsize_t size = preamble_.empty() ? 0 : 512;
+    while (size < preamble_.size()) size *= 2;
+    const Hdf5Handle properties(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+    H5Pset_userblock(properties, size);
+    id_ = H5Fcreate(file_.c_str(), H5F_ACC_TRUNC, properties, access);
+}
+
+/// HDF5 leaves the place to others, and has nothing to write there itself.
+void Hdf5File::writePreamble() const
+{
+    if (preamble_.empty()) return;
+    std::fstream out(file_, std::ios::in | std::ios::out | std::ios::binary);
+    if (!(out << preamble_ << std::flush)) throw Hdf5Error(file_ + ": cannot write the file to disk");
 }
 
 Hdf5File::~Hdf5File()
@@ -99,6 +119,7 @@ void Hdf5File::close()
     id_ = -1;
     if (!isFlushed) throw Hdf5Error(file_ + ": cannot write the file to disk (" + reason + ")");
     if (!isClosed) fail("cannot close the file", "");
+    writePreamble();
 }
 
 void Hdf5File::fail(const std::string& action, const std::string& path) const

@@ -21,7 +21,8 @@ public:
     /// How numbers are stored; in memory they are always double (or int for Int32).
     enum class Storage { Float64, Float32, Int32 };
 
-    Hdf5File(const std::string& file, Mode mode);
+    /// preamble: text for other programs before HDF5's own content, which finds itself behind it; with Mode::Create.
+    Hdf5File(const std::string& file, Mode mode, const std::string& preamble = "");
     ~Hdf5File(); ///< closes; a failure is not reported here: call close() where it matters
     Hdf5File(const Hdf5File&) = delete;
     Hdf5File& operator=(const Hdf5File&) = delete;
@@ -59,6 +60,8 @@ public:
 private:
     using Id = std::int64_t; // hid_t; HDF5's header stays out of this one
 
+    void create(Id access);
+    void writePreamble() const;
     void append(const std::string& path, const void* values, Id memoryType, std::size_t nRows);
     Id openDataset(const std::string& path) const;
     Id openAttribute(const std::string& path, const std::string& name) const;
@@ -67,6 +70,7 @@ private:
     [[noreturn]] void fail(const std::string& action, const std::string& path) const;
 
     std::string file_;
+    std::string preamble_;
     Id id_ = -1;
 };
 

@@ -31,6 +31,7 @@ fixedSteps flat 0.001 $stop 30
 (cd flat && solve 1) || exit
 cp -r flat flatTwo
 (cd two && quietly decomposePar && solve 2 && quietly reconstructPar) || exit
+grep -q 'FOAM Warning' two/log.reconstructPar && fail "reconstructPar warns: $(grep -A 4 'FOAM Warning' two/log.reconstructPar)" # of states beside the fields
 rm -rf one cells three && cp -r whole one && cp -r whole cells && cp -r two three
 goesOn whole 1 'continuing the stored state'
 

@@ -114,6 +114,20 @@ TEST_CASE("an empty state (a rank without nodes) passes")
     CHECK(complaint(folder / "state.h5", 0).empty());
 }
 
+TEST_CASE("a checkpoint begins with a head as OpenFOAM's files have")
+{
+    const TemporaryFolder folder("checkpointHead");
+    const std::string file = folder / "state.h5";
+    writeCheckpoint(file, example());
+    std::string head(512, ' ');
+    std::ifstream(file, std::ios::binary).read(&head[0], 512);
+    CHECK(head.find("FoamFile\n{\n") == 0);
+    CHECK(contains(head, "class       flotsamState;"));
+    CHECK(contains(head, "object      state.h5;"));
+    CHECK(head.substr(head.find('}')).find_first_not_of(std::string("}\n\0", 3)) == std::string::npos);
+    CHECK(complaint(file).empty());
+}
+
 TEST_CASE("a checkpoint that does not fit is refused with its reason")
 {
     const TemporaryFolder folder("checkpointRefused");
