@@ -2,6 +2,7 @@
 #include "demCoupling/coupling/entryCheck.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <numeric>
 
 namespace flotsam
@@ -60,6 +61,15 @@ bool reachesInto(const BodyDefinition& body, const Corners& x, int n, int halvin
     return false;
 }
 
+/// With the largest alpha: little of it is the surface's tail, which reaches farther than the level that one sees.
+std::string liquid(double alpha)
+{
+    if (alpha <= wet) return "";
+    char text[64];
+    std::snprintf(text, sizeof text, "liquid (alpha up to %.2g) in the elements", alpha);
+    return text;
+}
+
 } // namespace
 
 EntryCheck::EntryCheck(const SimplexMesh& mesh, const Halo& halo, const std::vector<BodyDefinition>& bodies)
@@ -75,8 +85,9 @@ std::string EntryCheck::obstacle(int body, const std::vector<double>& alpha, con
         if (structure.kind == Solid::Kind::Prescribed && touches(body, structure)) return "structure '" + structure.name + "'";
     for (int other = 0; other < int(bodies_.size()); ++other)
         if (other != body && !isAway[other] && touches(body, other, states[other].pose)) return "body '" + bodies_[other].name + "'";
-    const std::vector<int>& nodes = nodesAt(body);
-    return halo_.any(std::any_of(nodes.begin(), nodes.end(), [&](int i) { return alpha[i] > wet; })) ? "liquid" : "";
+    double wettest = 0;
+    for (int i : nodesAt(body)) wettest = std::max(wettest, alpha[i]);
+    return liquid(halo_.max(wettest));
 }
 
 bool EntryCheck::touches(int body, int other, const Pose& pose) const

@@ -48,11 +48,11 @@ TEST_CASE("a place is free where there is neither liquid nor a body that is ther
     fill(1.01);
     CHECK(obstacle(away) == "");
     fill(1.26); // into the elements that hold the log
-    CHECK(obstacle(away) == "liquid");
+    CHECK(obstacle(away) == "liquid (alpha up to 1) in the elements");
     fill(0.5);
     for (int i = 0; i < mesh.nNodes; ++i) // a drop in one node beside it
         if ((Vec3(mesh.spacePoint(i).data()) - Vec3(1.75, 1, 1.5)).norm() < 1e-9) alpha[i] = 0.5;
-    CHECK(obstacle(away) == "liquid");
+    CHECK(obstacle(away) == "liquid (alpha up to 0.5) in the elements");
 
     fill(0.5);
     CHECK(obstacle(place) == "body 'old'");
@@ -75,7 +75,7 @@ TEST_CASE("nodes beside the elements of the body count up to half an element fro
         const Vec3 place(1.5, 1, bottom + 0.5*thickness);
         return EntryCheck(mesh, halo, {makeLog("log", place)}).obstacle(0, alpha, {at(place)}, {0}, {});
     };
-    CHECK(obstacle(1.75 + 0.12) == "liquid");
+    CHECK(obstacle(1.75 + 0.12) == "liquid (alpha up to 1) in the elements");
     CHECK(obstacle(1.75 + 0.13) == "");
 }
 
@@ -132,7 +132,7 @@ TEST_CASE("liquid around a body that is thinner than the elements, and far from 
             EntryCheck check(mesh, halo, {stick});
             std::vector<double> alpha(mesh.nNodes, 1.0);
             const std::vector<BodyState> states{at(stick.pose.position)};
-            CHECK(check.obstacle(0, alpha, states, {0}, {}) == "liquid");
+            CHECK(check.obstacle(0, alpha, states, {0}, {}) == "liquid (alpha up to 1) in the elements");
             for (int i = 0; i < mesh.nNodes; ++i) alpha[i] = mesh.spacePoint(i)[2] < 0.99;
             CHECK(check.obstacle(0, alpha, states, {0}, {}) == "");
         }
