@@ -12,6 +12,7 @@ namespace
 
 constexpr double mostlyLiquid = 0.5;
 constexpr double roundOff = 1e-6;       // of the height of the mesh
+constexpr double noHeight = 1e-9;       // of that: 0
 constexpr double gasBelow = 0.25;       // of it that has no liquid
 constexpr double atRest = 1e-3;         // of the speed that the height of the mesh gives what falls
 
@@ -67,6 +68,8 @@ LiquidPlace liquidPlace(const SimplexMesh& mesh, const Halo& halo, const FlowSta
     place.highest = halo.max(high);
     place.bottom = halo.min(bottom);
     place.top = halo.max(top);
+    for (double* z : {&place.lowest, &place.highest, &place.bottom, &place.top})  // of meshes that stand at an angle
+        if (std::abs(*z) < noHeight*(place.top - place.bottom)) *z = 0;
     place.meanLiquid = sums[0] > 0 ? sums[2]/sums[0] : 0;
     place.meanGas = sums[1] > 0 ? sums[3]/sums[1] : 0;
     place.fastest = halo.max(fastest);

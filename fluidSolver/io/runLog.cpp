@@ -51,6 +51,13 @@ double seconds(const std::timespec& from, const std::timespec& to)
     return double(to.tv_sec - from.tv_sec) + 1e-9 * double(to.tv_nsec - from.tv_nsec);
 }
 
+/// Digits of a time by which a hundredth of the step is told, as many as the column takes.
+int digitsOfTime(double time, double dt)
+{
+    if (!(dt > 0) || !(time > dt)) return 6;
+    return std::clamp(int(std::ceil(std::log10(100*time/dt))), 6, 10);
+}
+
 std::timespec processorTime()
 {
     std::timespec now;
@@ -214,7 +221,7 @@ std::string RunLog::stepLine(const StepReport& r)
     {
         text += "    step     time [s]    dt [s]  limit   iter rep  mass err touch |  Co mean      max     body |flow phas  cut  dem  out  rest %| s/step    left\n";
     }
-    text += format("%8ld %12.6g %9.3g  %-7s %4d %3d %9.1e %5d |  %8.3g %8.3g %8.3g |%4d %4d %4d %4d %4d %4d  |%7.3g %7s\n", r.step, r.time, r.dt,
+    text += format("%8ld %12.*g %9.3g  %-7s %4d %3d %9.1e %5d |  %8.3g %8.3g %8.3g |%4d %4d %4d %4d %4d %4d  |%7.3g %7s\n", r.step, digitsOfTime(r.time, r.dt), r.time, r.dt,
         r.limit.c_str(), r.linearIterations, r.contactRepeats, r.massError, r.bodiesInContact, r.courant.mean, r.courant.largest, r.courant.bodies,
         share({Phase::FlowAssembly, Phase::FlowSolve}), share({Phase::PhaseField}), share({Phase::Cut}),
         share({Phase::Dem, Phase::Exchange}), share({Phase::Output}), share({Phase::Other}), total,

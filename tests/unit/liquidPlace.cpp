@@ -65,6 +65,9 @@ TEST_CASE("volumes and heights of a pool, along whatever direction gravity has")
     const LiquidPlace reversed = pool.place(up);
     CHECK(reversed.lowest == near(-0.45, 1e-13));
     CHECK(reversed.highest == within(0, 1e-15));
+    const LiquidPlace nearlyUpright = pool.place({1e-15*g, -g, 0});
+    CHECK(nearlyUpright.lowest == 0);   // not -2e-15
+    CHECK(nearlyUpright.bottom == 0);
     CHECK(Basin([](double, double) { return false; }).place(down).liquid == 0);
 }
 

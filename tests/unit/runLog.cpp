@@ -108,6 +108,21 @@ TEST_CASE("a step is one line; a heading comes every 25 lines; the time left fol
     CHECK(log.timeLeft() < 2);
 }
 
+TEST_CASE("late times are told apart by the steps between them")
+{
+    PhaseTimers timers;
+    RunLog log(timers, 86400, 86500);
+    StepReport report;
+    report.dt = 0.005;
+    report.time = 86400.005;
+    CHECK(contains(log.stepLine(report), " 86400.005 "));
+    report.time = 86400.01;
+    CHECK(contains(log.stepLine(report), " 86400.01 "));
+    report.dt = 1e-6;
+    report.time = 123456.789012;
+    CHECK(contains(log.stepLine(report), "  123456.789 ")); // as far as the column goes
+}
+
 TEST_CASE("force statistics are means over time and pass through a checkpoint")
 {
     ForceStatistics statistics({"pipe1", "pipe2"});
