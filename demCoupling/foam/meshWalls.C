@@ -2,6 +2,7 @@
 #include "demCoupling/foam/meshWalls.H"
 
 #include "algebra/exchange.hpp"
+#include "geometry/faceTriangles.hpp"
 
 #include "SubField.H"
 #include "boundBox.H"
@@ -23,9 +24,12 @@ std::vector<double> localTriangles(const Foam::polyMesh& mesh, const Foam::polyP
 {
     std::vector<double> corners;
     for (const Foam::face& f : patch)
-        for (Foam::label k = 1; k + 1 < f.size(); ++k)
-            for (const Foam::label point : {f[0], f[k + 1], f[k]})
-                for (int d = 0; d < 3; ++d) corners.push_back(mesh.points()[point][d]);
+    {
+        std::vector<Vec3> x;
+        for (const Foam::label point : f) x.push_back(toVec3(mesh.points()[point]));
+        for (const auto& t : faceTriangles(x))
+            for (const int k : {t[0], t[2], t[1]}) corners.insert(corners.end(), x[k].data(), x[k].data() + 3);
+    }
     return corners;
 }
 

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Water at rest on locally refined meshes (topoSet and refineMesh, cells with hanging points) around a cut pier stays at rest, whether its surface lies on faces of the
-# coarse cells, of the finer ones alone or within cells: 2D, and 3D, refined twice, on one and two processes.
+# coarse cells, of the finer ones alone or within cells: 2D, and 3D, refined twice, on one and two processes. To bodies a refined bed is one plane.
 . "$(dirname "$0")/support.sh"
 mkdir -p "$work" && cd "$work" || exit
 rm -rf ./*
@@ -50,6 +50,10 @@ halve 3D.one "(0.13 -1 0.03) (0.28 1 0.17)" "tan1 normal"
 halve 3D.one "(0.16 0.1 0.05) (0.25 0.2 0.15)" "tan1 tan2 normal"
 (cd 3D.one && quietly setAlphaField) || exit
 cp -r 3D.one 3D.two
+cp -r 3D.one bed
+echo "bodies { ball { shape { type sphere; radius 0.03; } density 2000; position (0.1 0.05 0.1); } }" >> bed/constant/bodies
+(cd bed && quietly flotsamFoam -dry-run) || exit
+grep -q ', 6 DEM walls' bed/log.flotsamFoam || fail "not five planes and the pier: $(grep 'DEM walls' bed/log.flotsamFoam)"
 for case in 3D.0.16 3D.0.15 3D.0.143 3D.one; do (cd $case && solve 1) || exit; done
 (cd 3D.two && quietly decomposePar && solve 2 && quietly reconstructPar -latestTime) || exit
 
