@@ -294,6 +294,7 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
         Foam::Info << "constant/bodies: the mesh has no patch of type wall and no mirror plane, so bodies can leave it everywhere. If that is not meant: wallPatches (names);" << Foam::nl;
     Obstacles obstacles = makeObstacles(input, frame); // the patches; structures by their shapes
     addStructureWalls(input);
+    checkWallTriangles(input, dict);
     addMovers(dict, frame, groups, input);
     placeAll(groups, frame, obstacles);
     for (BodyGroup& group : groups)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Walls: axis-aligned planes as primitives, everything else as triangles through a temporary STL file.
+#include "demCoupling/core/thinTriangles.hpp"
 #include "demCoupling/liggghts/liggghtsParts.hpp"
 
 #include <mpi.h>
@@ -66,17 +67,16 @@ private:
 
 void writeStl(TemporaryFile& stl, const TriSurface& surface)
 {
-    double extent = 0;
-    for (const Vec3& p : surface.points)
-        extent = std::max(extent, (p - surface.points.front()).norm());
+    const double extent = extentOf(surface);
     std::fprintf(stl.file(), "solid wall\n");
     for (const std::array<int, 3>& t : surface.triangles)
     {
         const Vec3 &a = surface.points[static_cast<size_t>(t[0])], &b = surface.points[static_cast<size_t>(t[1])],
                    &c = surface.points[static_cast<size_t>(t[2])];
         const Vec3 normal = (b - a).cross(c - a);
-        if (normal.norm() < 1e-12 * extent * extent)
-            continue; // a sliver without area: LIGGGHTS refuses it and nothing can touch it
+        const ThinTriangle thin(a, b, c);
+        if ((thin.isRefused && thin.isNegligible(extent)) || normal.norm() < 1e-12 * extent * extent)
+            continue;
         const Vec3 n = normal.normalized();
         std::fprintf(stl.file(), "facet normal %.17g %.17g %.17g\nouter loop\n", n.x(), n.y(), n.z());
         for (const Vec3& p : {a, b, c})

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "demCoupling/core/thinTriangles.hpp"
 #include "support/near.hpp"
 #include "unit/demSupport.hpp"
 
@@ -96,6 +97,57 @@ TEST_CASE("at rest the floor carries the weight and the moment about the origin"
         CHECK((contacts[0].point - Vec3(0.07, 0.03, 0)).norm() < 1e-5);
         CHECK(contacts[0].overlap == near(weight / 1e6, 5e-10)); // the whole face shares K
     }
+}
+
+TEST_CASE("triangles without width, three corners on one line as CAD programs leave them, do not end the run and carry nothing")
+{
+    std::vector<double> carried;
+    for (const double thickness : {-1.0, 0.0, 1e-9, 8e-6}) // over the extent; -1: no such triangle
+    {
+        CAPTURE(thickness);
+        DemSetup setup = scene({debris(Vec3(0.07, 0.03, 0.0099999))}, {});
+        setup.walls = {block(Vec3(-0.4, -0.4, -0.1), Vec3(0.4, 0.4, 0))};
+        TriSurface& s = setup.walls[0].surface;
+        const int n = static_cast<int>(s.points.size());
+        s.points.insert(s.points.end(), {Vec3(-0.4, -0.4, -0.1), Vec3(0, -0.4, -0.1 - thickness), Vec3(0.4, -0.4, -0.1)}); // below its lower edge
+        if (thickness >= 0)
+            s.triangles.push_back({n, n + 1, n + 2});
+        LiggghtsEngine engine(setup);
+        engine.setLoads(weights(setup));
+        for (int i = 0; i < 20; ++i)
+            engine.advance(1e-3);
+        carried.push_back(engine.meanWallLoads()[0].force.z());
+    }
+    for (const double force : carried)
+        CHECK(force == carried[0]);
+}
+
+TEST_CASE("the thinnest triangle that counts as no needle is taken, and a thinner one is not")
+{
+    const auto takes = [](double width)
+    {
+        DemSetup setup = scene({ball(0.01, 0.05, Vec3(0, 0, 0.02))}, {block(Vec3(-0.4, -0.4, -0.1), Vec3(0.4, 0.4, 0))});
+        setup.walls[0].surface.points = {Vec3(-0.4, 0, 0), Vec3(0.4, 0, 0), Vec3(0.4, width, 0)};
+        setup.walls[0].surface.triangles = {{0, 1, 2}};
+        try
+        {
+            LiggghtsEngine engine(setup);
+        }
+        catch (const DemError&)
+        {
+            return false;
+        }
+        return true;
+    };
+    const auto isRefused = [](double width) { return ThinTriangle(Vec3(-0.4, 0, 0), Vec3(0.4, 0, 0), Vec3(0.4, width, 0)).isRefused; };
+    for (const double width : {0.8 * 1.01e-3, 0.1})
+    {
+        CHECK(takes(width));
+        CHECK(!isRefused(width));
+    }
+    CHECK(!takes(0.8 * 0.99e-3));
+    CHECK(isRefused(0.8 * 0.99e-3));
+    CHECK(isRefused(0));
 }
 
 TEST_CASE("planes of any direction act alike")

@@ -5,6 +5,7 @@
 #include "demCoupling/foam/continuedMotion.H"
 #include "support/bodiesScene.H"
 #include "support/near.hpp"
+#include "support/polyhedra.hpp"
 
 #include <doctest/doctest.h>
 
@@ -140,6 +141,28 @@ TEST_CASE("times of a motion that leave no time to move, or none before the end 
     CHECK(motionJumps(s.read(text("timeStart 2; timeEnd 3;"))) == std::vector<double>{2, 3});
     CHECK(motionJumps(s.read(text("timeStart 2; timeEnd 3; rampTime 0.2;"))).empty());
     CHECK(doubtfulStart(s.read(text("timeStart 20;")), 10).empty());    // has not moved yet
+}
+
+TEST_CASE("structures with needles that the contact engine does not take are refused with name, place and size, before it is there")
+{
+    BodiesScene s;
+    const auto message = [&](double width, const std::string& entry = "")
+    {
+        // a wedge of two triangles and two sides, as thin as wide
+        if (s.halo.rank() == 0)
+        {
+            Foam::mkDir(s.foam.folder() + "/constant/triSurface");
+            TriSurface wedge;
+            wedge.points = {{0, 0, 0}, {1, 0, 0}, {1, width, 0}, {1, 0, 0.5}};
+            wedge.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+            writeStl(s.foam.folder() + "/constant/triSurface/wedge.stl", wedge);
+        }
+        MPI_Barrier(MPI_COMM_WORLD);
+        return s.message("structures { sill { shape { type stl; file \"wedge.stl\"; } position (0.3 0.3 0.3); " + entry + " } } " + bodies(bar + "position (0.5 0.8 0.2);"));
+    };
+    CHECK(has(message(5e-4), "The surface of sill has a triangle 1 m long and 0.0005 m wide at (0.3 0.3 0.3)"));
+    CHECK(message(5e-4, "contact off;").empty());
+    CHECK(message(2e-3).empty());
 }
 
 TEST_CASE("tables of a motion need two rows of rising times")
