@@ -81,12 +81,7 @@ VolumeMoments BoxShape::moments() const
 
 TriSurface BoxShape::surface(double) const
 {
-    TriSurface s;
-    for (int i = 0; i < 8; ++i)
-        s.points.push_back(centre_ + half_.cwiseProduct(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
-    s.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
-                   {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-    return s;
+    return boxSurface(centre_ - half_, centre_ + half_);
 }
 
 // sphere

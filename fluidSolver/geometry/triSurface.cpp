@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace flotsam
 {
@@ -89,8 +90,66 @@ Vec3 anyNormalTo(const Vec3& axis)
     return axis.cross(Vec3::Unit(least)).normalized();
 }
 
-TriSurface surfaceOfRevolution(const Vec3& origin, const Vec3& axis, const std::vector<ProfilePoint>& profile, int nAround)
+int stripPieces(double length, double width)
 {
+    constexpr double longest = 900; // widths: an angle of 1.1e-3
+    return width > 0 ? std::max(1, int(std::ceil(length/(longest*width)))) : 1;
+}
+
+namespace
+{
+
+/// With points between those of parts that are long beside the strips around them.
+std::vector<ProfilePoint> withoutNeedles(const std::vector<ProfilePoint>& profile, int nAround)
+{
+    std::vector<ProfilePoint> result{profile.front()};
+    for (std::size_t k = 1; k < profile.size(); ++k)
+    {
+        const ProfilePoint &a = profile[k - 1], &b = profile[k];
+        const double width = 2*std::sin(M_PI/nAround)*std::min(a.radius, b.radius);
+        const int n = stripPieces(std::hypot(b.along - a.along, b.radius - a.radius), width);
+        for (int i = 1; i < n; ++i) result.push_back({a.along + (b.along - a.along)*i/n, a.radius + (b.radius - a.radius)*i/n});
+        result.push_back(b);
+    }
+    return result;
+}
+
+} // namespace
+
+TriSurface boxSurface(const Vec3& lower, const Vec3& upper)
+{
+    const Vec3 size = upper - lower;
+    std::array<int, 3> n;
+    for (int d = 0; d < 3; ++d) n[d] = std::max(stripPieces(size[d], size[(d + 1) % 3]), stripPieces(size[d], size[(d + 2) % 3]));
+    TriSurface s;
+    std::map<std::array<int, 3>, int> numbers;
+    const auto point = [&](const std::array<int, 3>& at)
+    {
+        const auto [found, isNew] = numbers.insert({at, int(s.points.size())});
+        const Vec3 share(double(at[0])/n[0], double(at[1])/n[1], double(at[2])/n[2]);
+        if (isNew) s.points.push_back((Vec3::Ones() - share).cwiseProduct(lower) + share.cwiseProduct(upper));
+        return found->second;
+    };
+    for (int i = 0; i < 8; ++i) point({i & 1 ? n[0] : 0, i & 2 ? n[1] : 0, i & 4 ? n[2] : 0});
+    for (int d = 2; d >= 0; --d)
+        for (const int side : {0, n[d]})
+        {
+            // u, v and d are right-handed where the normal goes up along d
+            const int u = (d + (side ? 1 : 2)) % 3, v = (d + (side ? 2 : 1)) % 3;
+            for (int i = 0; i < n[u]; ++i)
+                for (int j = 0; j < n[v]; ++j)
+                {
+                    const auto corner = [&](int k, int l) { std::array<int, 3> at; at[d] = side; at[u] = i + k; at[v] = j + l; return point(at); };
+                    s.triangles.push_back({corner(0, 0), corner(1, 0), corner(1, 1)});
+                    s.triangles.push_back({corner(0, 0), corner(1, 1), corner(0, 1)});
+                }
+        }
+    return s;
+}
+
+TriSurface surfaceOfRevolution(const Vec3& origin, const Vec3& axis, const std::vector<ProfilePoint>& given, int nAround)
+{
+    const std::vector<ProfilePoint> profile = withoutNeedles(given, nAround);
     const Vec3 u = anyNormalTo(axis), v = axis.cross(u);
     TriSurface s;
     std::vector<int> ringStart;

@@ -27,7 +27,13 @@ double sectionArea(const TriSurface& surface, const Vec3& point, const Vec3& nor
 /// Point of a profile: position along the axis and distance from it [m].
 struct ProfilePoint { double along, radius; };
 
-/// Closed surface of the profile turned about the axis. The profile runs in the direction of the axis, from radius 0 to
+/// Into how many pieces of equal length a strip is divided so that none of its triangles is a needle: one of less than 1e-3 rad, which contact engines refuse.
+int stripPieces(double length, double width);
+
+/// Surface of a box from `lower` to `upper`: two triangles a face, more where they would be needles.
+TriSurface boxSurface(const Vec3& lower, const Vec3& upper);
+
+/// Closed surface of the profile turned about the axis, whose straight parts are divided where strips of their length would be needles. The profile runs in the direction of the axis, from radius 0 to
 /// radius 0 (other points > 0); `nAround` points per ring.
 TriSurface surfaceOfRevolution(const Vec3& origin, const Vec3& axis, const std::vector<ProfilePoint>& profile, int nAround);
 

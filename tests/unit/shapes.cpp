@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
@@ -150,6 +151,29 @@ TEST_CASE("surfaces are closed, outward, and enclose the shape's volume to the o
         CHECK((facets.centroid - exact.centroid).norm() < 1e-12);
         CHECK((facets.inertia - exact.inertia).norm() < 6e-3 * exact.inertia.norm());
     }
+}
+
+TEST_CASE("surfaces of long thin shapes are closed, too, enclose what they should, and have no needles; those of others have no more triangles than they need")
+{
+    for (const auto& shape : {makeBox(Vec3::Zero(), Vec3(10, 0.005, 0.002)), makeBox(Vec3::Zero(), Vec3(0.004, 10, 20)), makeCylinder(Vec3::Zero(), Vec3(0, 3, 4), 0.002),
+        makeCapsule(Vec3::Zero(), Vec3(5, 0, 0), 0.001)})
+    {
+        const TriSurface s = shape->surface(0.25*0.002);
+        std::map<std::pair<int, int>, int> edges;
+        double flattest = 1e300;
+        for (const auto& t : s.triangles)
+        {
+            const Vec3 &a = s.points[t[0]], &b = s.points[t[1]], &c = s.points[t[2]];
+            std::array<double, 3> sides{(b - a).norm(), (c - b).norm(), (a - c).norm()};
+            std::sort(sides.begin(), sides.end());
+            flattest = std::min(flattest, (b - a).cross(c - a).norm()/(sides[1]*sides[2]));    // sine of the smallest angle
+            for (int k = 0; k < 3; ++k) ++edges[{t[k], t[(k + 1) % 3]}];
+        }
+        CHECK(flattest > 1.05e-3);
+        CHECK(std::all_of(edges.begin(), edges.end(), [&](const auto& e) { return e.second == 1 && edges.count({e.first.second, e.first.first}) == 1; }));
+        CHECK(enclosedMoments(s).volume == near(shape->moments().volume, 0.05));
+    }
+    CHECK(makeBox(Vec3::Zero(), Vec3(1, 0.1, 0.01))->surface(0.01).triangles.size() == 12);
 }
 
 TEST_CASE("facets follow curved shapes: the sagitta is that of a chord no longer than asked")
