@@ -102,3 +102,9 @@ for ranks in 1 2; do
     stopAndGoOn jam$ranks 0.03 0.06 $ranks
     mustTouch jam$ranks 0.03 bar.0 bar.1 bar.2 pipes.1 pipes.3 pipes.5
 done
+
+# momentum and loads of the bodies in bodies.h5, over the stop too
+python "$here/momentum.py" touching.parts "0 -9.81 0" bar || exit
+python "$here/momentum.py" growing "0 -9.81 0" bar || exit
+tilted=$(python -c 'from math import *; a = atan(0.05); print(9.81*sin(a), 0, -9.81*cos(a))') # the bed's slope of slitDam; its bar.2 is held at first
+for ranks in 1 2; do python "$here/momentum.py" jam$ranks.parts "$tilted" bar.0 bar.1 || exit; done

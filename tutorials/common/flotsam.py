@@ -357,6 +357,28 @@ def sumForce(h, names, quantity="fluidForce"):
     return sum((getattr(h[name], quantity) for name in names), np.zeros((len(h.time), 3)))
 
 
+def momentumLoad(h, name, gravity, released=0.0):
+    """Load of fluid and weight on a body as it changes its momentum in every step, n x 3 [N]: to round-off
+
+        mass (velocity[k] - velocity[k-1]) = (momentumLoad[k] + contactForce[k]) dt[k]
+
+    fluidForce is that at the step's end in the sense of BDF2: a step gets a part of it, and of the step's before the rest (docs/numerics, 6.1), so that plain sums of
+    fluidForce dt agree over many steps only. gravity: vector [m/s2]; released: time until which the body is held [s]. For timeOrder 2, the default.
+    """
+    member = h["bodies/" + name]
+    dt, new = h.run["dt"], member.fluidForce + member.mass * np.asarray(gravity, dtype=float)
+    load = np.zeros_like(new)
+    isFirst = True
+    for k in range(1, len(dt)):
+        if not h.isThere("bodies/" + name)[k] or h.time[k - 1] < released - 1e-9:
+            continue
+        ratio = dt[k] / dt[k - 1] if not isFirst else 0.0
+        share = (1 + ratio) / (1 + 2 * ratio)
+        load[k] = share * new[k] + (1 - share) * load[k - 1]
+        isFirst = False
+    return load
+
+
 def captured(h, inside, names=None):
     """Share per time of the bodies that have come in whose position fulfils `inside` (function: positions n x 3 -> n booleans)."""
     names = ["bodies/" + name for name in (h.bodies if names is None else names)]
