@@ -13,7 +13,7 @@ namespace flotsam
 
 /// LIGGGHTS refuses triangles with an angle of less than 1e-3 rad ("Bad mesh", surface_mesh_I.h); a little more, as it computes with other digits.
 constexpr double smallestWallAngle = 1.001e-3;
-/// Of the extent of its surface: a narrower triangle may be left out. The crack is so narrow that a sphere of a hundredth of the extent sinks into it by 1e-9 of its radius.
+/// Of the extent of its surface: a narrower triangle may be left out. The crack is so narrow that a sphere of a hundredth of the extent sinks into it by 1e-7 of its radius.
 constexpr double narrowestWallTriangle = 1e-5;
 
 struct ThinTriangle
