@@ -2,7 +2,7 @@
 /// Triangles of surfaces that bodies touch which are too thin for the contact engine.
 #pragma once
 
-#include "geometry/shape.hpp"
+#include "geometry/faceTriangles.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,8 +11,6 @@
 namespace flotsam
 {
 
-/// LIGGGHTS refuses triangles with an angle of less than 1e-3 rad ("Bad mesh", surface_mesh_I.h); a little more, as it computes with other digits.
-constexpr double smallestWallAngle = 1.001e-3;
 /// Of the extent of its surface: a narrower triangle may be left out. The crack is so narrow that a sphere of a hundredth of the extent sinks into it by 1e-7 of its radius.
 constexpr double narrowestWallTriangle = 1e-5;
 
@@ -24,22 +22,13 @@ struct ThinTriangle
     ThinTriangle(const Vec3& a, const Vec3& b, const Vec3& c)
     {
         const std::array<double, 3> edges{(b - a).norm(), (c - b).norm(), (a - c).norm()};
-        const double twiceArea = (b - a).cross(c - a).norm();
         length = *std::max_element(edges.begin(), edges.end());
-        if (length > 0) width = twiceArea/length;
+        width = length*flatness(a, b, c);
         const double second = edges[0] + edges[1] + edges[2] - length - *std::min_element(edges.begin(), edges.end());
-        isRefused = !(width > std::sin(smallestWallAngle)*second); // the smallest angle is between the two longer edges
+        isRefused = !(width > std::sin(needleAngle)*second); // the smallest angle is between the two longer edges
     }
-    /// extent: of the surface [m].
+    /// extent: of the surface, the diagonal of the box around it [m].
     bool isNegligible(double extent) const { return width < narrowestWallTriangle*extent; }
 };
-
-/// Farthest of a surface's points from the first [m].
-inline double extentOf(const TriSurface& surface)
-{
-    double extent = 0;
-    for (const Vec3& p : surface.points) extent = std::max(extent, (p - surface.points.front()).norm());
-    return extent;
-}
 
 } // namespace flotsam

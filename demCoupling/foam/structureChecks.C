@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/foam/structureChecks.H"
+
 #include "demCoupling/core/thinTriangles.hpp"
 
 #include "foam/dictionaryChecks.H"
 #include "geometry/primitives.hpp"
 #include "geometry/thinSolids.hpp"
+#include "geometry/triSurface.hpp"
 
 #include <cmath>
 
@@ -169,14 +171,15 @@ void checkWallTriangles(const BodiesInput& input, const Foam::dictionary& dict)
     {
         if (wall.kind != WallDefinition::Kind::Surface) continue;
         const TriSurface& s = wall.surface;
-        const double extent = extentOf(s);
+        const auto box = boundsOf(s);
+        const double extent = (box[1] - box[0]).norm();
         for (const auto& t : s.triangles)
         {
             const Vec3& a = s.points[t[0]];
             const ThinTriangle thin(a, s.points[t[1]], s.points[t[2]]);
             if (!thin.isRefused || thin.isNegligible(extent)) continue;
             failIn(dict, text("The surface of ", wall.name, " has a triangle ", thin.length, " m long and ", thin.width, " m wide at (", a[0], ' ', a[1], ' ', a[2],
-                "): the contact engine takes none with an angle below ", smallestWallAngle, " rad. Divide long narrow triangles of an STL file (surfaceMeshTriangulate, a CAD program's remeshing), "
+                "): the contact engine takes none with an angle below ", needleAngle, " rad. Divide long narrow triangles of an STL file (surfaceMeshTriangulate, a CAD program's remeshing), "
                 "make cells at a patch less flat, or let bodies not feel it ('contact off;' of a structure, wallPatches)."));
         }
     }

@@ -2,6 +2,7 @@
 /// Walls: axis-aligned planes as primitives, everything else as triangles through a temporary STL file.
 #include "demCoupling/core/thinTriangles.hpp"
 #include "demCoupling/liggghts/liggghtsParts.hpp"
+#include "geometry/triSurface.hpp"
 
 #include <mpi.h>
 
@@ -67,7 +68,8 @@ private:
 
 void writeStl(TemporaryFile& stl, const TriSurface& surface)
 {
-    const double extent = extentOf(surface);
+    const auto box = boundsOf(surface);
+    const double extent = (box[1] - box[0]).norm();
     std::fprintf(stl.file(), "solid wall\n");
     for (const std::array<int, 3>& t : surface.triangles)
     {

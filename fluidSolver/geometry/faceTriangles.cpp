@@ -75,7 +75,7 @@ std::vector<std::array<int, 3>> faceTriangles(const std::vector<Vec3>& corners)
 {
     const Triangles fan = fanOf(int(corners.size()));
     const Vec3 area = areaVector(corners);
-    const bool hasSliver = std::any_of(fan.begin(), fan.end(), [&](const auto& t) { return signedFlatness(corners, t, area) < sliverFlatness; });
+    const bool hasSliver = std::any_of(fan.begin(), fan.end(), [&](const auto& t) { return signedFlatness(corners, t, area) < needleAngle; });
     return hasSliver ? bestDivision(corners, area) : fan;
 }
 

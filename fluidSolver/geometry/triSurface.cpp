@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "geometry/triSurface.hpp"
+#include "geometry/faceTriangles.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -92,7 +93,7 @@ Vec3 anyNormalTo(const Vec3& axis)
 
 int stripPieces(double length, double width)
 {
-    constexpr double longest = 900; // widths: an angle of 1.1e-3
+    constexpr double longest = 0.9/needleAngle; // widths
     return width > 0 ? std::max(1, int(std::ceil(length/(longest*width)))) : 1;
 }
 

@@ -27,7 +27,7 @@ double sectionArea(const TriSurface& surface, const Vec3& point, const Vec3& nor
 /// Point of a profile: position along the axis and distance from it [m].
 struct ProfilePoint { double along, radius; };
 
-/// Into how many pieces of equal length a strip is divided so that none of its triangles is a needle: one of less than 1e-3 rad, which contact engines refuse.
+/// Into how many pieces of equal length a strip is divided so that none of its triangles is a needle (needleAngle).
 int stripPieces(double length, double width);
 
 /// Surface of a box from `lower` to `upper`: two triangles a face, more where they would be needles.

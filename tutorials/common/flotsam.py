@@ -367,11 +367,10 @@ def momentumLoad(h, name, gravity, released=0.0):
     """
     member = h["bodies/" + name]
     dt, new = h.run["dt"], member.fluidForce + member.mass * np.asarray(gravity, dtype=float)
+    isFree = h.isThere("bodies/" + name)[1:] & (h.time[:-1] >= released - 1e-9)
     load = np.zeros_like(new)
     isFirst = True
-    for k in range(1, len(dt)):
-        if not h.isThere("bodies/" + name)[k] or h.time[k - 1] < released - 1e-9:
-            continue
+    for k in np.flatnonzero(isFree) + 1:
         ratio = dt[k] / dt[k - 1] if not isFirst else 0.0
         share = (1 + ratio) / (1 + 2 * ratio)
         load[k] = share * new[k] + (1 - share) * load[k - 1]
