@@ -96,6 +96,8 @@ void BodyCoupling::runEngine(double duration, const std::vector<Load>& loads)
         result_ = engine_->states();
         newContact_ = engine_->meanContactLoads();
         touch_.wallLoads = engine_->meanWallLoads();
+        touch_.peaks = engine_->peakContactForces();
+        touch_.wallPeaks = engine_->peakWallForces();
         touch_.take(engine_->contacts(), setup_);
         if (!engine_->hasContact()) newContact_.assign(newContact_.size(), Load()); // round-off of a free flight
     });
@@ -174,6 +176,7 @@ void BodyCoupling::takeOut(const std::vector<char>& bodies)
         presence_[b] = Presence::Left;
         held[b] = 1;
         touch_.counts[b] = 0;
+        touch_.peaks[b].setZero();
         guess[b] = lastLoads_[b] = newContact_[b] = contact_[b] = Load();
         inertia_.drop(b);
     }
@@ -279,7 +282,7 @@ void BodyCoupling::reject()
 CouplingRecord BodyCoupling::record() const
 {
     return {touch_.wallLoads, lastLoads_, contact_, contactGuess(), inertia_.factors(), smooth_->save(), isHeld_, presence_, touch_.counts, touch_.wallCounts,
-            touch_.largestOverlap};
+            touch_.largestOverlap, touch_.peaks, touch_.wallPeaks};
 }
 
 std::vector<double> BodyCoupling::save() const
@@ -322,6 +325,8 @@ void BodyCoupling::restore(const std::vector<double>& data)
     touch_.counts = stored.counts;
     touch_.wallCounts = stored.wallCounts;
     touch_.largestOverlap = stored.largestOverlap;
+    touch_.peaks = stored.peaks;
+    touch_.wallPeaks = stored.wallPeaks;
     states_ = predicted_ = result_;
     smooth_->restore(states_, stored.smooth.data());
 }

@@ -59,6 +59,8 @@ public:
     const std::vector<Load>& contactLoads() const { return contact_; } ///< mean over the last accepted step
     const std::vector<Load>& lastLoads() const { return lastLoads_; }       ///< fluid and weight, mean over the last accepted step; held bodies: 0
     const std::vector<Load>& wallLoads() const { return touch_.wallLoads; }       ///< time means of the last DEM run, moments about the origin of space
+    const std::vector<Vec3>& contactPeaks() const { return touch_.peaks; }        ///< force in the sub-step of the last DEM run in which it was largest [N]
+    const std::vector<Vec3>& wallPeaks() const { return touch_.wallPeaks; }
     const std::vector<int>& contactCounts() const { return touch_.counts; }
     const std::vector<int>& wallContactCounts() const { return touch_.wallCounts; } ///< bodies that touch each wall
     bool isHeld(int body) const { return isHeld_[body]; }

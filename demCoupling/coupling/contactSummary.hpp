@@ -13,6 +13,7 @@ namespace flotsam
 struct ContactSummary
 {
     std::vector<Load> wallLoads;        ///< walls, then movers: time means of the run, moments about the origin of space
+    std::vector<Vec3> peaks, wallPeaks; ///< contact force in the sub-step in which it was largest: of bodies; of walls, then movers [N]
     std::vector<int> counts, wallCounts; ///< contacts of each body; bodies that touch each wall
     double largestOverlap = 0;          ///< of DEM surfaces [m]
     int deepestBody = -1, deepestOther = 0, pressing = -1; ///< as in Contact; a mover. Not stored: they only serve messages
@@ -34,7 +35,7 @@ struct ContactSummary
 template <class Archive, class Summary>
 void passSummary(Archive& archive, Summary& summary)
 {
-    passAll(archive, summary.wallLoads, summary.counts, summary.wallCounts, summary.largestOverlap, summary.deepestBody, summary.deepestOther, summary.pressing);
+    passAll(archive, summary.wallLoads, summary.peaks, summary.wallPeaks, summary.counts, summary.wallCounts, summary.largestOverlap, summary.deepestBody, summary.deepestOther, summary.pressing);
 }
 
 } // namespace flotsam

@@ -250,6 +250,7 @@ std::vector<BodyRecord> CoupledStep::records() const
             if (wall < 0) continue;
             r.contactForce = coupling_->wallLoads()[wall].force;
             r.contactMoment = coupling_->wallLoads()[wall].moment - r.pose.position.cross(r.contactForce);
+            r.peakContactForce = coupling_->wallPeaks()[wall];
             r.contacts = coupling_->wallContactCounts()[wall];
             continue;
         }
@@ -257,6 +258,7 @@ std::vector<BodyRecord> CoupledStep::records() const
         r.motion = coupling_->states()[body].motion;
         r.contactForce = coupling_->contactLoads()[body].force;
         r.contactMoment = coupling_->contactLoads()[body].moment;
+        r.peakContactForce = coupling_->contactPeaks()[body];
         r.contacts = coupling_->contactCounts()[body];
         r.hasLeft = coupling_->presence(body) == Presence::Left;
         r.isAwaited = coupling_->presence(body) == Presence::Awaited;

@@ -19,6 +19,7 @@ struct CouplingRecord
     std::vector<Presence> presence;
     std::vector<int> counts, wallCounts;
     double largestOverlap = 0;
+    std::vector<Vec3> peaks, wallPeaks; ///< as in ContactSummary
 };
 
 /// The order is that of the files: those of earlier versions are read.
@@ -27,7 +28,7 @@ void passRecord(Archive& archive, Record& record)
 {
     passAll(archive, record.wallLoads, record.lastLoads, record.contact, record.guess);
     passAll(archive, record.factors, record.smooth, record.isHeld, record.presence);
-    passAll(archive, record.counts, record.wallCounts, record.largestOverlap);
+    passAll(archive, record.counts, record.wallCounts, record.largestOverlap, record.peaks, record.wallPeaks);
 }
 
 inline std::vector<double> numbersOf(const CouplingRecord& record)

@@ -108,7 +108,8 @@ void RunOutput::record(const CoupledStep& step, const StepResult& result, const 
     if (step.cover()) sharedElements_ = std::max(sharedElements_, step.cover()->nSharedElements);
     const std::vector<BodyRecord> records = step.records();
     for (int s = 0; s < nStructures_; ++s)
-        forces_.add(s, step.fluid().state().dt, records[s].fluidForce.data(), records[s].contactForce.data());
+        forces_.add(s, step.fluid().state().dt, records[s].fluidForce.data(), records[s].contactForce.data(),
+            records[s].peakContactForce.data());
     if (history_) history_->append(runTime_.value(), records, scalars(step.fluid().state().dt));
 
     StepReport line;

@@ -299,6 +299,16 @@ std::vector<Load> LiggghtsEngine::meanWallLoads() const
     return loads;
 }
 
+std::vector<Vec3> LiggghtsEngine::peakContactForces() const { return first(impl_->model.tally->peakOnBodies(), impl_->nBodies); }
+
+std::vector<Vec3> LiggghtsEngine::peakWallForces() const
+{
+    std::vector<Vec3> peaks = impl_->model.tally->peakOnWalls();
+    const std::vector<Vec3>& bodies = impl_->model.tally->peakOnBodies();
+    peaks.insert(peaks.end(), bodies.begin() + static_cast<std::ptrdiff_t>(impl_->nBodies), bodies.end());
+    return peaks;
+}
+
 std::vector<Contact> LiggghtsEngine::contacts() const
 {
     std::vector<Contact> result = listContacts(impl_->model, impl_->setup);

@@ -56,6 +56,10 @@ public:
     /// opposite of the sum over the bodies to round-off. Moments are about the origin of SPACE [N m] (mesh walls: to half
     /// the overlap times the friction force; movers: to half their way in the advance times the force).
     std::vector<Load> meanWallLoads() const;
+    /// Contact force on each body, and on each wall and mover, in the sub-step of the last advance in which it was largest [N]; zero without contact.
+    /// The first force of an advance is the last of the one before and does not count.
+    std::vector<Vec3> peakContactForces() const;
+    std::vector<Vec3> peakWallForces() const;
     std::vector<Contact> contacts() const;      ///< movers count as walls behind the walls
     bool hasContact() const;            ///< any contact force in any sub-step of the last advance
     long subSteps() const;              ///< of the last advance

@@ -54,6 +54,13 @@ OwnFix* installFix(LiggghtsModel& model, const std::string& id, Arguments&... ar
     return fix;
 }
 
+void keepLargest(const std::vector<Load>& now, std::vector<Vec3>& peaks)
+{
+    for (size_t k = 0; k < now.size(); ++k)
+        if (now[k].force.squaredNorm() > peaks[k].squaredNorm())
+            peaks[k] = now[k].force;
+}
+
 Load meshLoad(LAMMPS_NS::FixMeshSurface& mesh)
 {
     // compute_vector() would give the values of the step before during set-up
@@ -300,6 +307,7 @@ void ContactTally::sample()
     readAll();
     bodyMean_.assign(bodyNow_.size(), {});
     wallMean_.assign(wallNow_.size(), {});
+    clearPeaks();
 }
 
 void ContactTally::add(double weight)
@@ -316,12 +324,19 @@ void ContactTally::add(double weight)
     }
 }
 
+void ContactTally::clearPeaks()
+{
+    bodyPeak_.assign(bodyNow_.size(), Vec3::Zero());
+    wallPeak_.assign(wallNow_.size(), Vec3::Zero());
+}
+
 void ContactTally::start()
 {
     hasContact_ = false;
     readBodies();
     bodySum_.assign(bodyNow_.size(), {});
     wallSum_.assign(wallNow_.size(), {});
+    clearPeaks();
 }
 
 void ContactTally::startSteps(double step)
@@ -345,6 +360,8 @@ void ContactTally::end_of_step()
     {
         hasContact_ = true;
         add(step_);
+        keepLargest(bodyNow_, bodyPeak_);
+        keepLargest(wallNow_, wallPeak_);
     }
 }
 

@@ -74,6 +74,9 @@ public:
 
     const std::vector<Load>& meanOnBodies() const { return bodyMean_; }
     const std::vector<Load>& meanOnWalls() const { return wallMean_; }
+    /// Force of the sub-step in which it was largest since start().
+    const std::vector<Vec3>& peakOnBodies() const { return bodyPeak_; }
+    const std::vector<Vec3>& peakOnWalls() const { return wallPeak_; }
     bool hasContact() const { return hasContact_; }
 
     /// Loads of the walls at this instant, moments about the origin of space: part of the state.
@@ -91,11 +94,13 @@ private:
     void readSharedMeshForces(const MeshGroup& group);
     void readSharedMeshMoments();
     void add(double weight);
+    void clearPeaks();
 
     LiggghtsModel& model_;
     SphereDamping damping_;
     MeshTurns meshTurns_;
     std::vector<Load> bodyNow_, bodySum_, bodyMean_, wallNow_, wallSum_, wallMean_;
+    std::vector<Vec3> bodyPeak_, wallPeak_;
     std::vector<std::vector<int>> nearPlane_; ///< per wall: spheres that can touch it before the next rebuild
     std::vector<MeshTouch> touches_;
     bool hasContact_ = false, isRebuilt_ = false;

@@ -39,12 +39,13 @@ constexpr Series allSeries[] = {
     {"fluidMoment", 3, "N m", "of the fluid about the origin, space frame"},
     {"contactForce", 3, "N", "of bodies and walls on the member, space frame"},
     {"contactMoment", 3, "N m", "of bodies and walls about the origin, space frame"},
+    {"peakContactForce", 3, "N", "of bodies and walls on the member at the instant of the step at which it was largest, space frame"},
     {"contacts", 1, "1", "number of touching partners"},
     {"wetFraction", 1, "1", "liquid share of the surface"},
     {"left", 1, "1", "1: has left the mesh and was taken out, rests where it left"},
     {"awaited", 1, "1", "1: not there yet, comes in at its position"}};
 
-constexpr std::size_t recordSize = 29;
+constexpr std::size_t recordSize = 32;
 constexpr std::size_t chunkRows = 256;      ///< rows a dataset grows by in the file
 constexpr std::size_t maxBufferedRows = 64;
 constexpr double maxBufferedSeconds = 1;
@@ -61,6 +62,7 @@ void pack(const BodyRecord& r, std::vector<double>& out)
     put(r.fluidMoment);
     put(r.contactForce);
     put(r.contactMoment);
+    put(r.peakContactForce);
     out.insert(out.end(), {double(r.contacts), r.wetFraction, r.hasLeft ? 1.0 : 0.0, r.isAwaited ? 1.0 : 0.0});
 }
 

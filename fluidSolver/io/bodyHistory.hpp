@@ -19,6 +19,7 @@ struct BodyRecord
     Motion motion;
     Vec3 fluidForce = Vec3::Zero(), fluidMoment = Vec3::Zero();         ///< [N], [N m] about the origin of the pose
     Vec3 contactForce = Vec3::Zero(), contactMoment = Vec3::Zero();
+    Vec3 peakContactForce = Vec3::Zero();   ///< largest within the step; contactForce is its mean over the step [N]
     int contacts = 0;
     double wetFraction = 0; ///< liquid share of the surface, 0..1
     bool hasLeft = false;   ///< the mesh, for good

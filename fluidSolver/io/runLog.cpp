@@ -122,7 +122,8 @@ PhaseTimers::Seconds PhaseTimers::cpu() const
 
 ForceStatistics::ForceStatistics(const std::vector<std::string>& names) : names_(names), sums_(names.size()) {}
 
-void ForceStatistics::add(std::size_t member, double dt, const double* fluidForce, const double* contactForce)
+void ForceStatistics::add(std::size_t member, double dt, const double* fluidForce, const double* contactForce,
+    const double* peakContactForce)
 {
     Sums& s = sums_.at(member);
     std::array<double, 3> fluid, contact, total;
@@ -138,6 +139,7 @@ void ForceStatistics::add(std::size_t member, double dt, const double* fluidForc
     s.maxFluid = std::max(s.maxFluid, norm(fluid));
     s.maxContact = std::max(s.maxContact, norm(contact));
     s.maxTotal = std::max(s.maxTotal, norm(total));
+    s.peakContact = std::max(s.peakContact, norm({peakContactForce[0], peakContactForce[1], peakContactForce[2]}));
 }
 
 std::vector<MemberForces> ForceStatistics::result() const
@@ -156,6 +158,7 @@ std::vector<MemberForces> ForceStatistics::result() const
         list[m].maxFluid = s.maxFluid;
         list[m].maxContact = s.maxContact;
         list[m].maxTotal = s.maxTotal;
+        list[m].peakContact = s.peakContact;
     }
     return list;
 }
@@ -168,14 +171,14 @@ std::vector<double> ForceStatistics::values() const
         list.push_back(s.time);
         list.insert(list.end(), s.fluid.begin(), s.fluid.end());
         list.insert(list.end(), s.contact.begin(), s.contact.end());
-        list.insert(list.end(), {s.maxFluid, s.maxContact, s.maxTotal});
+        list.insert(list.end(), {s.maxFluid, s.maxContact, s.maxTotal, s.peakContact});
     }
     return list;
 }
 
 void ForceStatistics::restore(const std::vector<double>& values)
 {
-    constexpr std::size_t n = 10;
+    constexpr std::size_t n = 11;
     if (values.size() != n * sums_.size())
     {
         throw std::runtime_error("force statistics: stored for " + std::to_string(values.size() / n)
@@ -184,7 +187,7 @@ void ForceStatistics::restore(const std::vector<double>& values)
     for (std::size_t m = 0; m < sums_.size(); ++m)
     {
         const double* v = values.data() + n * m;
-        sums_[m] = {v[0], {v[1], v[2], v[3]}, {v[4], v[5], v[6]}, v[7], v[8], v[9]};
+        sums_[m] = {v[0], {v[1], v[2], v[3]}, {v[4], v[5], v[6]}, v[7], v[8], v[9], v[10]};
     }
 }
 
@@ -273,12 +276,12 @@ std::string RunLog::summary(const RunSummary& s)
     if (!s.structures.empty())
     {
         text += "\n  forces on structures [N]   mean of water (x y z)               mean of contact (x y z)"
-                "             largest: water   contact       both\n";
+                "             largest: water   contact       both    impact\n";
         for (const MemberForces& m : s.structures)
         {
-            text += format("  %-22s %11.4g %11.4g %11.4g %11.4g %11.4g %11.4g %15.4g %9.4g %10.4g\n", m.name.c_str(),
+            text += format("  %-22s %11.4g %11.4g %11.4g %11.4g %11.4g %11.4g %15.4g %9.4g %10.4g %9.4g\n", m.name.c_str(),
                 m.meanFluid[0], m.meanFluid[1], m.meanFluid[2], m.meanContact[0], m.meanContact[1], m.meanContact[2],
-                m.maxFluid, m.maxContact, m.maxTotal);
+                m.maxFluid, m.maxContact, m.maxTotal, m.peakContact);
         }
     }
     return text;

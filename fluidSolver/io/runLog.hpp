@@ -82,7 +82,8 @@ struct MemberForces
 {
     std::string name;
     std::array<double, 3> meanFluid{}, meanContact{};
-    double maxFluid = 0, maxContact = 0, maxTotal = 0;  ///< magnitudes
+    double maxFluid = 0, maxContact = 0, maxTotal = 0;  ///< magnitudes of means over a step
+    double peakContact = 0;                             ///< magnitude within a step
 };
 
 /// Collects MemberForces over the steps. values()/restore() carry it through a checkpoint.
@@ -90,14 +91,14 @@ class ForceStatistics
 {
 public:
     explicit ForceStatistics(const std::vector<std::string>& names);
-    void add(std::size_t member, double dt, const double* fluidForce, const double* contactForce);
+    void add(std::size_t member, double dt, const double* fluidForce, const double* contactForce, const double* peakContactForce);
     std::vector<MemberForces> result() const;
 
     std::vector<double> values() const;
     void restore(const std::vector<double>& values); ///< throws std::runtime_error for another number of members
 
 private:
-    struct Sums { double time = 0; std::array<double, 3> fluid{}, contact{}; double maxFluid = 0, maxContact = 0, maxTotal = 0; };
+    struct Sums { double time = 0; std::array<double, 3> fluid{}, contact{}; double maxFluid = 0, maxContact = 0, maxTotal = 0, peakContact = 0; };
     std::vector<std::string> names_;
     std::vector<Sums> sums_;
 };

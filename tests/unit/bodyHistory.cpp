@@ -54,6 +54,7 @@ std::vector<BodyRecord> recordsAt(double t, std::size_t n)
         r.fluidMoment = Vec3(s + 10, s + 11, s + 12);
         r.contactForce = Vec3(s + 13, s + 14, s + 15);
         r.contactMoment = Vec3(s + 16, s + 17, s + 18);
+        r.peakContactForce = Vec3(s + 19, s + 20, s + 21);
         r.contacts = int(m) + 3;
         r.wetFraction = 0.25;
     }
@@ -108,6 +109,7 @@ TEST_CASE("every series is found where it was put, with its unit")
     CHECK(at150("fluidMoment") == expected.fluidMoment);
     CHECK(at150("contactForce") == expected.contactForce);
     CHECK(at150("contactMoment") == expected.contactMoment);
+    CHECK(at150("peakContactForce") == expected.peakContactForce);
     CHECK(in.readArray("/structures/pipe/contacts").at(150) == 4);
     CHECK(in.readArray("/structures/pipe/wetFraction").at(150) == 0.25);
     const auto q = in.readArray("/structures/pipe/orientation");

@@ -126,11 +126,11 @@ TEST_CASE("late times are told apart by the steps between them")
 TEST_CASE("force statistics are means over time and pass through a checkpoint")
 {
     ForceStatistics statistics({"pipe1", "pipe2"});
-    const double water[3] = {3, 0, 4}, none[3] = {0, 0, 0}, contact[3] = {-3, 0, 0};
-    statistics.add(0, 1, water, none);
+    const double water[3] = {3, 0, 4}, none[3] = {0, 0, 0}, contact[3] = {-3, 0, 0}, peak[3] = {-12, 5, 0};
+    statistics.add(0, 1, water, none, peak);
     ForceStatistics continued({"pipe1", "pipe2"});
     continued.restore(statistics.values());
-    continued.add(0, 3, none, contact);
+    continued.add(0, 3, none, contact, contact);
     const auto result = continued.result();
     CHECK(result[0].name == "pipe1");
     CHECK(result[0].meanFluid[0] == 0.75);
@@ -139,6 +139,7 @@ TEST_CASE("force statistics are means over time and pass through a checkpoint")
     CHECK(result[0].maxFluid == 5);
     CHECK(result[0].maxTotal == 5);
     CHECK(result[0].maxContact == 3);
+    CHECK(result[0].peakContact == 13);
     CHECK(result[1].maxTotal == 0);
     CHECK(result[1].meanFluid[0] == 0);
     CHECK_THROWS_AS(ForceStatistics({"one"}).restore(statistics.values()), std::runtime_error);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "demCoupling/liggghts/contactLaw.hpp"
 #include "support/near.hpp"
 #include "unit/demSupport.hpp"
 
@@ -82,6 +83,54 @@ TEST_CASE("a dashpot that sees the velocity of half a sub-step ago does not lowe
             mean += rebound(setup, speed, 1e-7 + speed * setup.timeStep * (i + 0.5) / instants) / instants;
         // second order, 0.23 and 0.004 %; without compensateLag 6 and 3 % too low
         CHECK(std::abs(mean / law.restitution - 1) < 0.03 / (subSteps * subSteps));
+    }
+}
+
+/// Largest force of spring and dashpot over v sqrt(k m), beta their damping ratio: of exp(-beta t) (2 beta cos w t + (1 - 2 beta^2)/w sin w t),
+/// in units of sqrt(m/k), at its start or where it is steady.
+double impactFactor(double beta)
+{
+    if (beta >= 0.5)
+        return 2 * beta;
+    const double w = std::sqrt(1 - beta * beta);
+    const double t = std::atan2(w * (1 - 4 * beta * beta), beta * (3 - 4 * beta * beta)) / w;
+    return std::exp(-beta * t) * (2 * beta * std::cos(w * t) + (1 - 2 * beta * beta) / w * std::sin(w * t));
+}
+
+TEST_CASE("the largest force of an impact is that of spring and dashpot, on body, wall and mover, in however long a call")
+{
+    constexpr double mass = 0.05, speed = 0.3;
+    for (const double e : {0.2, 0.3, 0.5, 0.8, 1.0})
+    {
+        CAPTURE(e);
+        ContactLaw law;
+        law.restitution = e;
+        const double expected = impactFactor(dampingRatioFor(e)) * speed * std::sqrt(law.stiffness * mass);
+        DemSetup setup = scene({ball(0.01, mass, Vec3(0, 0, 0.0100001))}, {floorPlane}, law);
+        setup.bodies[0].motion.velocity.z() = -speed;
+        setup.timeStep = 2e-6; // 350 of a contact: the first force is felt within one
+        LiggghtsEngine engine(setup);
+        engine.advance(0.02);
+        const Vec3 peak = engine.peakContactForces()[0];
+        CHECK(peak.z() == near(expected, 0.012));
+        CHECK((peak + engine.peakWallForces()[0]).norm() < 1e-12 * expected);
+        CHECK(engine.meanContactLoads()[0].force.norm() < 0.1 * expected);
+        engine.advance(0.02); // in free flight again
+        CHECK(engine.peakContactForces()[0].isZero(0));
+        CHECK(engine.peakWallForces()[0].isZero(0));
+
+        setup = scene({ball(0.01, mass, Vec3(0, 0, 0.0200001))}, {}, law);
+        setup.bodies[0].motion.velocity.z() = -speed;
+        setup.timeStep = 2e-6;
+        MoverDefinition mover;
+        mover.name = "mover";
+        mover.spheres = {{Vec3::Zero(), 0.01}};
+        mover.motion = [](double, Pose& pose, Motion& motion) { pose = Pose(); motion = Motion(); };
+        setup.movers = {mover};
+        LiggghtsEngine other(setup);
+        other.moveTo({Pose()}, 0.02);
+        other.advance(0.02);
+        CHECK(other.peakWallForces()[0].z() == near(-expected, 0.012));
     }
 }
 
