@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/liggghts/liggghtsDamping.hpp"
 
-#include "demCoupling/liggghts/closestPoint.hpp"
-#include "demCoupling/liggghts/liggghtsNear.hpp"
 
 #include <mpi.h>
 
 #include "atom.h"
-#include "fix_mesh_surface.h"
 #include "fix_multisphere.h"
-#include "fix_neighlist_mesh.h"
 #include "force.h"
 #include "lammps.h"
 #include "neigh_list.h"
@@ -33,7 +29,7 @@ double largestEigenvalue(const Eigen::Matrix<double, 6, 6>& a)
 } // namespace
 
 SphereDamping::SphereDamping(LiggghtsModel& model, const DemSetup& setup)
-    : model_(model), extents_(setup.bodies.size()), margins_(setup.bodies.size()), partners_(setup.bodies.size())
+    : model_(model), facets_(model), extents_(setup.bodies.size()), margins_(setup.bodies.size()), partners_(setup.bodies.size())
 {
     for (size_t b = 0; b < setup.bodies.size(); ++b)
         extents_[b] = outerRadius(setup.bodies[b]);
@@ -152,24 +148,13 @@ void SphereDamping::addPlane(size_t wall, const std::vector<int>& spheres)
     }
 }
 
-/// A sphere beside an edge counts for both triangles: on the safe side.
 void SphereDamping::addMesh(size_t mesh)
 {
-    const MeshGroup& group = model_.meshes[mesh];
-    const LAMMPS_NS::Atom& atoms = *model_.instance.lammps().atom;
-    const LAMMPS_NS::FixNeighlistMesh& near = *group.mesh->meshNeighlist();
-    LAMMPS_NS::TriMesh& triangles = *group.mesh->triMesh();
-    const int wallClass = model_.contacts.classOfWall[static_cast<size_t>(group.walls.front())];
-    for (const int t : model_.near->touchable(group))
-    {
-        const std::vector<int>& spheres = near.get_contact_list(t);
-        Vec3 corners[3];
-        for (int k = 0; k < 3; ++k)
-            triangles.node_slow(t, k, corners[k].data());
-        for (const int i : spheres)
-            addWallContact(i, wallClass, static_cast<int>(model_.walls.size() + mesh),
-                           closestPointOfTriangle(asVec(atoms.x[i]), corners[0], corners[1], corners[2]));
-    }
+    const int wallClass = model_.contacts.classOfWall[static_cast<size_t>(model_.meshes[mesh].walls.front())];
+    for (const SphereTriangles& near : model_.near->atTriangles())
+        if (near.mesh == mesh)
+            for (const FacetTouch& touch : facets_.places(near, margins_[static_cast<size_t>(bodyOf(near.sphere))]))
+                addWallContact(near.sphere, wallClass, static_cast<int>(model_.walls.size() + mesh), touch.point);
 }
 
 SphereDamping::Partner& SphereDamping::partner(const Side& side)

@@ -2,7 +2,7 @@
 /// How much of their dashpots contacts keep, by how strongly they damp a body together.
 #pragma once
 
-#include "demCoupling/liggghts/liggghtsParts.hpp"
+#include "demCoupling/liggghts/liggghtsFacets.hpp"
 
 namespace flotsam
 {
@@ -52,6 +52,7 @@ private:
     void setLevels();
 
     LiggghtsModel& model_;
+    FacetChoice facets_;
     std::vector<double> extents_;   ///< of each body from its centre [m]
     std::vector<double> margins_;   ///< how far the surface of each body moves until the next look [m]
     std::vector<std::vector<Partner>> partners_; ///< of each body

@@ -257,6 +257,12 @@ bool touchesTriangle(LAMMPS_NS::FixMeshSurface& mesh, int sphere, int triangle)
     return std::find(touched, touched + slots, id) != touched + slots;
 }
 
+void renameTriangle(LAMMPS_NS::FixMeshSurface& mesh, int sphere, int from, int to)
+{
+    int* const touched = MeshHistoryAccess::triangles(*mesh.contactHistory(), sphere);
+    std::replace(touched, touched + mesh.contactHistory()->nneighs(sphere), mesh.triMesh()->id(from), mesh.triMesh()->id(to));
+}
+
 void findMeshTouches(const LiggghtsModel& model, int sphere, std::vector<MeshTouch>& touches)
 {
     touches.clear();

@@ -21,5 +21,7 @@ void findMeshTouches(const LiggghtsModel& model, int sphere, std::vector<MeshTou
 bool touchesMesh(LAMMPS_NS::FixMeshSurface& mesh, int sphere);
 /// Whether it touches this triangle of the mesh.
 bool touchesTriangle(LAMMPS_NS::FixMeshSurface& mesh, int sphere, int triangle);
+/// The spring that it has at a triangle is now that at another, which it did not touch before.
+void renameTriangle(LAMMPS_NS::FixMeshSurface& mesh, int sphere, int from, int to);
 
 } // namespace flotsam

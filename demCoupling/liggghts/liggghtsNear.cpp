@@ -17,6 +17,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 namespace flotsam
@@ -42,6 +43,8 @@ struct MeshListAccess : LAMMPS_NS::FixNeighlistMesh
 };
 
 } // namespace
+
+std::vector<int>& meshList(LAMMPS_NS::FixMeshSurface& mesh, int triangle) { return MeshListAccess::of(*mesh.meshNeighlist(), triangle); }
 
 LiggghtsModel::LiggghtsModel() = default;
 LiggghtsModel::~LiggghtsModel() = default;
@@ -130,7 +133,7 @@ void NearSpheres::takeTriangles()
         LAMMPS_NS::TriMesh& mesh = *model_.meshes[m].mesh->triMesh();
         for (int t = 0; t < mesh.sizeLocal(); ++t)
         {
-            const std::vector<int>& spheres = MeshListAccess::of(*model_.meshes[m].mesh->meshNeighlist(), t);
+            const std::vector<int>& spheres = meshList(*model_.meshes[m].mesh, t);
             if (spheres.empty())
                 continue;
             triangles_.push_back({m, t, {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}, spheres});
@@ -256,7 +259,7 @@ void NearSpheres::selectTriangles()
     for (const TriangleNeighbours& all : triangles_)
     {
         LAMMPS_NS::FixMeshSurface& mesh = *model_.meshes[all.mesh].mesh;
-        std::vector<int>& list = MeshListAccess::of(*mesh.meshNeighlist(), all.triangle);
+        std::vector<int>& list = meshList(mesh, all.triangle);
         list.clear();
         for (const int i : all.spheres)
         {
@@ -274,11 +277,27 @@ void NearSpheres::selectTriangles()
     for (const int i : listed_)
         if (isActive_[static_cast<size_t>(i)])
             atMeshes_.push_back(i);
+    sortBySpheres();
+}
+
+void NearSpheres::sortBySpheres()
+{
+    atTriangles_.clear();
+    for (size_t m = 0; m < model_.meshes.size(); ++m)
+    {
+        std::map<int, std::vector<int>> bySphere;
+        for (const int t : touchable_[m])
+            for (const int i : meshList(*model_.meshes[m].mesh, t))
+                bySphere[i].push_back(t);
+        for (auto& [sphere, triangles] : bySphere)
+            atTriangles_.push_back({m, sphere, std::move(triangles)});
+    }
 }
 
 void NearSpheres::showAll()
 {
     isNew_ = isOld_ = false;
+    atTriangles_.clear();
     atMeshes_.resize(bodies_.size());
     std::iota(atMeshes_.begin(), atMeshes_.end(), 0);
     touchable_.resize(model_.meshes.size());

@@ -7,6 +7,12 @@
 namespace flotsam
 {
 
+/// Triangles of a mesh that a sphere can touch soon.
+struct SphereTriangles { size_t mesh; int sphere; std::vector<int> triangles; };
+
+/// LIGGGHTS' list of the spheres near a triangle.
+std::vector<int>& meshList(LAMMPS_NS::FixMeshSurface& mesh, int triangle);
+
 /// LIGGGHTS' lists hold every pair of spheres closer than its skin, and every sub-step visits them, places every sphere twice and asks every
 /// sphere for its force. Few of them can touch within the next sub-steps: those alone are left in the lists, and those alone are moved and
 /// asked, here instead of by LIGGGHTS. What is left out would add zeros: the motion is the same to the last bit.
@@ -36,6 +42,8 @@ public:
     const std::vector<int>& atMeshes() const { return atMeshes_; }
     /// Triangles of a mesh with a sphere in reach.
     const std::vector<int>& touchable(const MeshGroup& group) const { return touchable_[static_cast<size_t>(&group - model_.meshes.data())]; }
+    /// The same by spheres.
+    const std::vector<SphereTriangles>& atTriangles() const { return atTriangles_; }
 
 private:
     struct Neighbours { int sphere; std::vector<int> others; };
@@ -55,6 +63,7 @@ private:
     void selectPairs();
     int selectPairs(const Neighbours& all);
     void selectTriangles();
+    void sortBySpheres();
     void markActive(int sphere) { isActive_[static_cast<size_t>(sphere)] = 1; }
 
     LiggghtsModel& model_;
@@ -69,6 +78,7 @@ private:
     std::vector<double> reach_;     ///< how far each body may move before the next choice [m]
     std::vector<int> atMeshes_;
     std::vector<std::vector<int>> touchable_;
+    std::vector<SphereTriangles> atTriangles_;
     std::vector<char> isActive_;    ///< of each sphere
     std::vector<Touching> touching_; ///< of the sphere at hand
 };

@@ -50,6 +50,16 @@ double binSize(const DemSetup& setup, const Box& box)
     return std::max(cutoff, std::cbrt((box.upper - box.lower).prod() / largestCount));
 }
 
+/// Most neighbours of a sphere: LIGGGHTS ends where a sphere has more triangles in reach. All of a surface, as far as its memory (some 600 bytes each) allows.
+size_t mostNeighbours(const DemSetup& setup)
+{
+    constexpr size_t least = 2000, most = 200000;   // LIGGGHTS' own default
+    size_t triangles = 0;
+    for (const WallDefinition& wall : setup.walls)
+        triangles += wall.surface.triangles.size();
+    return std::clamp(triangles, least, most);
+}
+
 std::string numbers(const std::vector<double>& values)
 {
     std::string text;
@@ -96,7 +106,9 @@ void writeScript(LiggghtsModel& model, const DemSetup& setup, double timeStep)
                                               box.lower.z(), box.upper.z()}) + " units box");
     dem.command("create_box " + std::to_string(model.contacts.typeCount()) + " box");
     dem.command("neighbor " + exactText(setup.skin) + " bin");
-    dem.command("neigh_modify delay 0 every 1 check yes binsize " + exactText(binSize(setup, box)));
+    const size_t neighbours = mostNeighbours(setup);
+    dem.command("neigh_modify delay 0 every 1 check yes binsize " + exactText(binSize(setup, box)) + " one " + std::to_string(neighbours) + " page "
+                + std::to_string(std::max(size_t(100000), 10 * neighbours)));
     excludePairs(model);
     dem.command("timestep " + exactText(timeStep));
 

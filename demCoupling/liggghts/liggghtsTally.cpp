@@ -180,6 +180,14 @@ void ContactTally::pre_force(int)
     damping_.beforeForces(nearPlane_);
     if (!model_.near->atMeshes().empty())
         meshTurns_.takeAll();
+    if (step_ > 0) // else the lists alone are rebuilt
+        facets_.leaveOut();
+}
+
+void ContactTally::post_force(int)
+{
+    showSpheres();
+    facets_.takeBack();
 }
 
 void ContactTally::pre_final_integrate()
@@ -370,6 +378,7 @@ void ContactTally::finishSteps()
     damping_.finishSteps();
     if (hasContact_)
         add(-0.5 * step_); // the last force is used with its second half only
+    step_ = 0;
 }
 
 void ContactTally::finish(double duration)

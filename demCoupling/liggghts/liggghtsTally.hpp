@@ -3,6 +3,7 @@
 #pragma once
 
 #include "demCoupling/liggghts/liggghtsDamping.hpp"
+#include "demCoupling/liggghts/liggghtsFacets.hpp"
 
 #include <mpi.h>
 
@@ -42,7 +43,7 @@ class ContactTally : public LAMMPS_NS::Fix
 {
 public:
     ContactTally(LAMMPS_NS::LAMMPS* lammps, int count, char** arguments, LiggghtsModel& model, const DemSetup& setup)
-        : LAMMPS_NS::Fix(lammps, count, arguments), model_(model), damping_(model, setup), meshTurns_(model)
+        : LAMMPS_NS::Fix(lammps, count, arguments), model_(model), damping_(model, setup), meshTurns_(model), facets_(model)
     {
         nevery = 1;
     }
@@ -53,7 +54,7 @@ public:
     void setup_pre_neighbor() override { pre_neighbor(); }
     void pre_neighbor() override;
     void pre_force(int) override;
-    void post_force(int) override { showSpheres(); }
+    void post_force(int) override;
     void pre_final_integrate() override;
     /// LIGGGHTS makes its tables for the types in use: all of them, though no body may have some at the start.
     int min_type() override { return 1; }
@@ -99,12 +100,13 @@ private:
     LiggghtsModel& model_;
     SphereDamping damping_;
     MeshTurns meshTurns_;
+    FacetChoice facets_;
     std::vector<Load> bodyNow_, bodySum_, bodyMean_, wallNow_, wallSum_, wallMean_;
     std::vector<Vec3> bodyPeak_, wallPeak_;
     std::vector<std::vector<int>> nearPlane_; ///< per wall: spheres that can touch it before the next rebuild
     std::vector<MeshTouch> touches_;
     bool hasContact_ = false, isRebuilt_ = false;
-    double step_ = 0;   ///< [s]
+    double step_ = 0;   ///< [s], 0 between calls
 };
 
 /// Before the walls' turn in a sub-step: they go through all spheres up to the last one, each of them, and need only those they may touch.

@@ -17,3 +17,12 @@ def dampingRatio(restitution):
         middle = 0.5 * (low + high)
         low, high = (middle, high) if _restitution(middle) > restitution else (low, middle)
     return low
+
+
+def impactFactor(beta):
+    """Largest force of an impact on spring and dashpot over v sqrt(k m), beta = c/(2 sqrt(k m)): at its start from 1/2 on, else where it is steady."""
+    if beta >= 0.5:
+        return 2 * beta
+    w = np.sqrt(1 - beta**2)
+    t = np.arctan2(w * (1 - 4 * beta**2), beta * (3 - 4 * beta**2)) / w
+    return np.exp(-beta * t) * (2 * beta * np.cos(w * t) + (1 - 2 * beta**2) / w * np.sin(w * t))
