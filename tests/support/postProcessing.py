@@ -136,6 +136,10 @@ class BodyHistory(unittest.TestCase):
         np.testing.assert_allclose(flotsam.captured(h, lambda x: x[:, 0] > 0.5).sum(), 50)
         np.testing.assert_allclose(flotsam.captured(h, lambda x: x[:, 0] < 0.5).sum(), 40)  # not before it has come in
         np.testing.assert_array_equal(h.isThere("bar"), (np.arange(101) >= 10) & (np.arange(101) <= 80))
+        impact, = flotsam.impacts(h, "post", 1)
+        np.testing.assert_allclose(impact[:4], [0.19, 0.23, 5, 0.21])
+        np.testing.assert_allclose(impact.impulse, [0.08, 0, 0])
+        self.assertEqual((len(flotsam.impacts(h, "post", 4)), flotsam.impacts(h, "post", 6), flotsam.impacts(h, "bar")), (1, [], []))
         np.testing.assert_allclose(h.run["dt"], 0.01)
         np.testing.assert_allclose(h.surface["time"], [0, 0.5, 1])
         np.testing.assert_allclose(h.surface["points"][8 + 1], [1.5, 0, 0])

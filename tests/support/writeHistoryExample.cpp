@@ -29,6 +29,11 @@ int main(int argc, char** argv)
         records[0].isAwaited = i < 10;
         records[0].hasLeft = i > 80;
         records[1].fluidForce = Vec3(time, 0, 2);
+        if (i >= 20 && i < 24) // an impact of four steps
+        {
+            records[1].contactForce = Vec3(2, 0, 0);
+            records[1].peakContactForce = Vec3(i == 21 ? 4 : 3, i == 21 ? 3 : 0, 0);
+        }
         history.append(time, records, {{"dt", 0.01}});
         if (i % 50 == 0) history.writeSurface(time, records);
     }

@@ -14,6 +14,10 @@ def writeSummary(runs, file):
         ("logs downstream of the pier at the end", int(channel.passedLogs(h)[-1]), f"of {len(h.bodies)}", ""),
         ("drag coefficient of the pier, without logs", float(channel.dragCoefficient(free["force"]["water"], free["down"])), "", "AASHTO 0.7, HEC-RAS 1.33"),
     ]
+    hits = flotsam.impacts(h, "pier")
+    if hits:
+        hardest = max(hits, key=lambda hit: hit.peak)
+        rows.append((f"largest force of an impact on the pier, {hardest.at:.2f} s", float(hardest.peak), "N", "with `contact` of constant/bodies: docs/contact.md"))
     for name, run in runs.items():
         rows += [
             (f"depth upstream, {name}", float(100 * run["up"]), "cm", ""),

@@ -7,6 +7,7 @@ Needs no OpenFOAM: python3-vtk9, python3-h5py, python3-numpy. Pictures are in fl
 import functools
 import os
 import sys
+from collections import namedtuple
 
 try:
     import h5py
@@ -376,6 +377,26 @@ def momentumLoad(h, name, gravity, released=0.0):
         load[k] = share * new[k] + (1 - share) * load[k - 1]
         isFirst = False
     return load
+
+
+Impact = namedtuple("Impact", "begin end peak at impulse")
+
+
+def impacts(h, name, least=0.0):
+    """When a body or structure is struck: a list of Impact(begin, end [s], peak: largest force [N], at: end of the step it falls in [s], impulse: vector [N s]), one for each
+    run of steps in which its contact force exceeds `least` [N] at some instant. What the peak depends on: docs/contact.md, "Largest force of an impact".
+    """
+    member = h[name]
+    size = np.linalg.norm(member.peakContactForce, axis=1)
+    isStruck = np.concatenate(([False], size > least, [False]))
+    turns = np.flatnonzero(isStruck[1:] != isStruck[:-1])
+    found = []
+    for first, end in zip(turns[::2], turns[1::2]):
+        steps = slice(first, end)
+        hardest = first + np.argmax(size[steps])
+        impulse = (member.contactForce * h.run["dt"][:, None])[steps].sum(axis=0)
+        found.append(Impact(h.time[first] - h.run["dt"][first], h.time[end - 1], size[hardest], h.time[hardest], impulse))
+    return found
 
 
 def captured(h, inside, names=None):
