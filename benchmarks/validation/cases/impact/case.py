@@ -72,9 +72,9 @@ def errors(run, case):
     peak = np.abs(pile.peakContactForce[:, 0]).max()
     impulse = np.sum(pile.contactForce[:, 0] * history.run["dt"])
     after = log.velocity[struck[-1], 0]
-    isResolved = run.options["steps"] >= 10
-    return {"comparisons": [relative("largest force on the pile", peak, inWater, 0.05 if isResolved else None, "N", "exact"),
+    target = 0.05 if run.options["steps"] >= 10 else None     # else the contact is shorter than what the fluid's steps follow
+    return {"comparisons": [relative("largest force on the pile", peak, inWater, target, "N", "exact"),
                             relative("the same, over that of a log without water", peak, alone, None, "N", "exact"),
-                            relative("impulse", impulse, (MASS + ADDED) * (speed - after), 0.05, "N s", "exact"),
+                            relative("impulse", impulse, (MASS + ADDED) * (speed - after), target, "N s", "exact"),
                             relative("largest mean over a step", np.abs(pile.contactForce[:, 0]).max(), peak, None, "N", "ours"),
                             small("log and pile feel the opposite, difference over the force", np.abs(log.peakContactForce + pile.peakContactForce).max() / peak, 1e-9)]}
