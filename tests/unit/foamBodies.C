@@ -206,7 +206,9 @@ TEST_CASE("prescribed motions: the velocity is the derivative of the pose")
     const std::string shape = "structures { gate { shape { type box; size (0.1 0.1 0.1); } position (1 0.5 0.2); motion { ";
     for (const std::string motion : {"type linear; velocity (1 2 0);", "type oscillating; direction (0 2 0); amplitude 0.1; period 2; phaseDeg 40;",
         "type rotating; origin (1.2 0.5 0.2); axis (0 0 1); rpm 30;", "type rotating; axis (0 0 1); rpm 30; timeStart 0.2; timeEnd 0.9; rampTime 0.25;",
-        "type tabulated; displacement ((0 (0 0 0)) (0.2 (0.1 0 0.1)) (0.5 (0.1 0 0.3)));", "type tabulated; timeStart 0.1; displacement ((0 (0 0 0)) (0.8 (0.1 0 0.1)));"})
+        "type tabulated; displacement ((0 (0 0 0)) (0.2 (0.1 0 0.1)) (0.5 (0.1 0 0.3)));", "type tabulated; timeStart 0.1; displacement ((0 (0 0 0)) (0.8 (0.1 0 0.1)));",
+        "type oscillating; axis (0 0 1); origin (1.2 0.4 0.2); amplitudeDeg 20; period 1.5; phaseDeg 40;", "type tabulated; axis (0 0 -1); origin (0.8 0.5 0); angleDeg ((0 0) (0.2 20) (0.5 90));",
+        "type tabulated; timeStart 0.1; axis (0 0 1); angleDeg ((0 0) (0.5 90)); displacement ((0 (0 0 0)) (0.8 (0.1 0 0.1)));"})
     {
         const auto input = s.read(shape + motion + " } } }");
         const auto& gate = input.structures[0];
@@ -221,6 +223,21 @@ TEST_CASE("prescribed motions: the velocity is the derivative of the pose")
         CHECK(((c.position - a.position)/(2*h) - m.velocity).norm() < 1e-7);
         const Eigen::AngleAxisd turned(c.orientation*a.orientation.conjugate());
         CHECK((turned.axis()*turned.angle()/(2*h) - m.angularVelocity).norm() < 1e-6);
+    }
+}
+
+TEST_CASE("a gate that turns by a table is where its angle says, about its hinge, and stays there")
+{
+    BodiesScene s;
+    const auto input = s.read("structures { gate { shape { type box; size (0.1 0.1 0.1); } position (1 0.5 0.2);"
+        " motion { type tabulated; axis (0 0 1); origin (1.2 0.5 0.2); angleDeg ((1 0) (2 30) (4 90)); displacement ((4 (0 0 0)) (5 (0 0.3 0))); } } }");
+    for (const auto& [time, place] : {std::pair(0.5, Vec3(1, 0.5, 0.2)), std::pair(2.0, Vec3(1.2 - 0.2*std::cos(M_PI/6), 0.4, 0.2)), std::pair(4.0, Vec3(1.2, 0.3, 0.2)), std::pair(9.0, Vec3(1.2, 0.6, 0.2))})
+    {
+        Pose pose;
+        Motion motion;
+        input.structures[0].motion(time, pose, motion);
+        CHECK((pose.position - place).norm() < 1e-14);
+        if (time > 4) CHECK((pose.orientation*Vec3::UnitX() - Vec3::UnitY()).norm() < 1e-14);
     }
 }
 

@@ -175,6 +175,24 @@ TEST_CASE("tables of a motion need two rows of rising times")
     CHECK(has(message("displacement ((0 0) (1 0.1));"), "a list of times [s] and displacements [m]"));
     CHECK(has(message("displacement ((0 (0 0 0)) (1 (0 0 0.1))); rampTime 1;"), "rampTime"));
     CHECK(message("displacement ((0 (0 0 0)) (1 (0 0 0.1))); timeStart 1;").empty());
+    CHECK(has(message("axis (0 0 1);"), "or 'angleDeg ( (time angle) .. );' about 'axis'"));
+    CHECK(has(message("axis (0 0 1); angleDeg ((0 0) (1 30) (1 40));"), "Times in 'angleDeg' must rise: 1 s follows 1 s"));
+    CHECK(has(message("angleDeg ((0 0) (1 30));"), "axis"));
+    CHECK(has(message("axis (0 0 1); angleDeg ((0 (0 0 0)) (1 (0 0 0.1)));"), "a list of times [s] and angles [degrees]"));
+    CHECK(has(message("axis (0 0 1); displacement ((0 (0 0 0)) (1 (0 0 0.1)));"), "'axis' and 'origin' go with 'angleDeg"));
+    CHECK(message("axis (0 0 1); angleDeg ((0 0) (1 30));").empty());
+}
+
+TEST_CASE("an oscillation is along a direction or about an axis")
+{
+    BodiesScene s;
+    const auto message = [&](const std::string& entries)
+    { return s.message("structures { gate { shape { type box; size (0.1 0.1 0.1); } position (1.5 0.5 0.2); motion { type oscillating; period 1; " + entries + " } } }"); };
+    CHECK(has(message("amplitude 0.1; amplitudeDeg 3; axis (0 0 1);"), "Give either 'amplitude' [m] along 'direction', or 'amplitudeDeg' about 'axis'"));
+    CHECK(has(message("amplitude 0.1; axis (0 0 1);"), "'amplitude' goes with 'direction'"));
+    CHECK(has(message("amplitudeDeg 3; direction (0 0 1);"), "'amplitudeDeg' goes with 'axis'"));
+    CHECK(message("amplitudeDeg 3; axis (0 0 1);").empty());
+    CHECK(message("amplitude 0.1; direction (0 1 0);").empty());
 }
 
 TEST_CASE("2D: a structure moves in the plane of the mesh and turns across it, and nothing touches front and back")
