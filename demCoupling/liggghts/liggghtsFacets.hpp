@@ -21,7 +21,7 @@ public:
     explicit FacetChoice(LiggghtsModel& model) : model_(model) {}
 
     /// Cosine of the largest angle between normals of one place, 30 degrees. An edge beside the face that the sphere is over has up to
-    /// acos(1 - overlap/radius), 18 degrees at 5 %; faces that meet at more than the limit in a corner are two places.
+    /// acos(1 - overlap/radius), 18 degrees at 5 %; faces that meet at more than the limit in a corner are two places. Table: docs/contact.md.
     static constexpr double sameNormal = 0.866;
 
     /// One touch for each place of the surface that the sphere overlaps, or comes within `margin` of [m]. Valid until the next call.
