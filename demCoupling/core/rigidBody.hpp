@@ -97,6 +97,7 @@ struct WallDefinition
     Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ(); ///< plane; normal points to the side of the bodies
     TriSurface surface;                     ///< Surface: in space
     int material = 0;
+    bool isMirror = false;                  ///< a body meets its image, which slides along with it: no friction
 };
 
 /// Dynamic state of one body.

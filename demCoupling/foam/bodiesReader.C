@@ -99,6 +99,8 @@ std::vector<BodyGroup> readGroups(const Foam::dictionary& dict, const SceneFrame
     return groups;
 }
 
+bool isMirror(const Foam::polyPatch& patch) { return Foam::isA<Foam::symmetryPolyPatch>(patch) || Foam::isA<Foam::symmetryPlanePolyPatch>(patch); }
+
 /// Names of the mesh's patches that are DEM walls. A body that reaches a mirror plane meets its image there, in the middle between both.
 std::vector<std::string> wallPatches(const Foam::dictionary& dict, const Foam::polyMesh& mesh)
 {
@@ -107,7 +109,7 @@ std::vector<std::string> wallPatches(const Foam::dictionary& dict, const Foam::p
     {
         if (Foam::isA<Foam::processorPolyPatch>(patch)) continue;
         all.push_back(patch.name());
-        if (patch.type() == "wall" || Foam::isA<Foam::symmetryPolyPatch>(patch) || Foam::isA<Foam::symmetryPlanePolyPatch>(patch)) walls.push_back(patch.name());
+        if (patch.type() == "wall" || isMirror(patch)) walls.push_back(patch.name());
     }
     if (!dict.found("wallPatches")) return walls;
     const Foam::ITstream& given = valueOf(dict, "wallPatches", "all, none, or names of patches in round brackets");
@@ -288,8 +290,14 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
     if (input.areWallsChosen) reportOpenWalls(mesh, patches);
     const int wallMaterial = patches.empty() ? 0 : readMaterial(dict, "wallMaterial", input.materials);
     for (const std::string& name : patches)
-        for (WallDefinition& wall : makeMeshWalls(mesh, mesh.boundaryMesh()[mesh.boundaryMesh().findPatchID(name)], halo, wallMaterial))
+    {
+        const Foam::polyPatch& patch = mesh.boundaryMesh()[name];
+        for (WallDefinition& wall : makeMeshWalls(mesh, patch, halo, wallMaterial))
+        {
+            wall.isMirror = isMirror(patch);
             input.walls.push_back(std::move(wall));
+        }
+    }
     if (patches.empty() && !dict.found("wallPatches"))
         Foam::Info << "constant/bodies: the mesh has no patch of type wall and no mirror plane, so bodies can leave it everywhere. If that is not meant: wallPatches (names);" << Foam::nl;
     Obstacles obstacles = makeObstacles(input, frame); // the patches; structures by their shapes

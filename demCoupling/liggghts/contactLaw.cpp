@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 namespace flotsam
 {
@@ -114,12 +115,12 @@ void addBodyClasses(const DemSetup& setup, ContactTable& table)
 
 void addWallClasses(const DemSetup& setup, ContactTable& table)
 {
-    std::map<int, int> classOf;
+    std::map<std::pair<int, bool>, int> classOf;
     for (const WallDefinition& wall : setup.walls)
     {
-        const auto [it, isNew] = classOf.emplace(checkedMaterial(wall.material, setup, wall.name), table.size());
+        const auto [it, isNew] = classOf.emplace(std::pair(checkedMaterial(wall.material, setup, wall.name), wall.isMirror), table.size());
         if (isNew)
-            table.classes.push_back({true, wall.material, 0});
+            table.classes.push_back({true, wall.material, 0, 1, 1, 0, wall.isMirror});
         table.classOfWall.push_back(it->second);
     }
 }
@@ -203,7 +204,7 @@ ContactTable makeContactTable(const DemSetup& setup)
             const double share = law.flatRestitution ? n : std::sqrt(n);
             const double ofCorners = law.perBody && law.flatRestitution ? stiffening * std::sqrt(n / sharedWeight(a, b)) : std::sqrt(stiffening);
             table.damping.push_back(2 * dampingRatioFor(law.restitution) * std::sqrt(law.stiffness * mass) / share * ofCorners);
-            table.friction.push_back(std::tan(law.frictionAngleDeg * pi / 180));
+            table.friction.push_back(a.isMirror || b.isMirror ? 0 : std::tan(law.frictionAngleDeg * pi / 180));
         }
     return table;
 }

@@ -31,6 +31,7 @@ struct ContactClass
     int faceCount = 1;  ///< spheres that share the law of the body in a flat landing, corners not counted
     double stiffening = 1;  ///< of corners: of their stiffness over that of the body's other spheres
     double cornerWeight = 0;    ///< sum of the stiffening of the corners that land with the flattest face
+    bool isMirror = false;      ///< of walls
 
     bool isCorner() const { return stiffening != 1; }
 };

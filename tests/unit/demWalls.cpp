@@ -168,6 +168,26 @@ TEST_CASE("planes of any direction act alike")
         CHECK(v == near(speeds[0], 1e-11));
 }
 
+TEST_CASE("what is pressed on a mirror plane slides along it freely, with its image, beside walls of the same material that hold it")
+{
+    for (const Vec3& normal : {Vec3(0, 0, 1), Vec3(0.6, 0, 0.8)}) // a plane to LIGGGHTS, and triangles
+    {
+        DemSetup setup = scene({ball(0.05, 1, 0.0499 * normal), ball(0.05, 1, 0.0499 * normal + Vec3(0, 5, 0))}, {plane(Vec3::Zero(), normal), plane(Vec3(0, 5.05, 0), -Vec3::UnitY())});
+        setup.box = {Vec3(-1, -1, -1), Vec3(1, 6, 1)};
+        setup.walls[0].isMirror = true;
+        const Vec3 along = Vec3::UnitY().cross(normal);
+        setup.bodies[0].motion.velocity = along;
+        setup.bodies[1].motion.velocity = along;
+        LiggghtsEngine engine(setup);
+        engine.setLoads({{-10 * normal, Vec3::Zero()}, {Vec3(0, 10, 0), Vec3::Zero()}});
+        engine.advance(0.2);
+        const auto states = engine.states();
+        CHECK(states[0].motion.velocity.dot(along) == near(1, 1e-12));
+        CHECK(states[0].motion.angularVelocity.norm() < 1e-12);
+        CHECK(states[1].motion.velocity.dot(along) < 0.9); // rolls
+    }
+}
+
 TEST_CASE("pipes: a bar across two of them leans on both")
 {
     DemSetup setup = scene({debris(Vec3(-0.0208, 0, 0.1))},

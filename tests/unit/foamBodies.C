@@ -30,7 +30,9 @@ TEST_CASE("walls and mirror planes stop bodies where nothing else is said")
         const MeshAdapter adapter = makeSimplexMesh(foam.mesh(), MPI_COMM_WORLD);
         const Halo halo(adapter.mesh, MPI_COMM_WORLD);
         const char* body = "bodies { bar { shape { type box; size (0.1 0.1 0.1); } density 500; position (1 0.5 0.05); } }";
-        return readBodies(parse(body), foam.mesh(), adapter.mesh, halo, Vec3(0, -9.81, 0)).wallPatches;
+        const BodiesInput input = readBodies(parse(body), foam.mesh(), adapter.mesh, halo, Vec3(0, -9.81, 0));
+        for (const WallDefinition& wall : input.walls) CHECK(wall.isMirror == (wall.name != "floor"));
+        return input.wallPatches;
     };
     const std::vector<std::string> floor{"floor"}, both{"outlet", "floor"};
     CHECK(walls({}) == floor);
