@@ -14,7 +14,7 @@ struct FacetTouch { int triangle; double depth; Vec3 point, normal; };
 /// finely divided surface or beside an edge the neighbours' springs come on top of the nearest one's, in almost the same direction: contact is as many
 /// times as stiff and as damped, and where a neighbour joins with an overlap that is not zero (in a hollow) it gives work that nobody has done. Here, of
 /// triangles whose contact normals are close, the one with the deepest overlap alone acts. The energy is that of one spring, k/2 times the square
-/// of the deepest overlap, whatever the surface is divided into.
+/// of the deepest overlap, whatever the surface is divided into; hollows hardly wider than the sphere are left (docs/contact.md).
 class FacetChoice
 {
 public:

@@ -70,7 +70,7 @@ TEST_CASE("an impact on a pile is as hard on its faces as on its edges, however 
             }
 }
 
-TEST_CASE("impacts on domes and in bowls of any fineness are those of one spring, and give no energy")
+TEST_CASE("impacts on domes and in wide bowls of any fineness are those of one spring, and give no energy")
 {
     for (const double R : {5.0, 50.0, -5.0})
         for (const int n : {4, 10, 20, 30, 60})
