@@ -35,7 +35,8 @@ struct ContactSummary
 template <class Archive, class Summary>
 void passSummary(Archive& archive, Summary& summary)
 {
-    passAll(archive, summary.wallLoads, summary.peaks, summary.wallPeaks, summary.counts, summary.wallCounts, summary.largestOverlap, summary.deepestBody, summary.deepestOther, summary.pressing);
+    passAll(archive, summary.wallLoads, summary.peaks, summary.wallPeaks, summary.counts, summary.wallCounts, summary.largestOverlap,
+        summary.deepestBody, summary.deepestOther, summary.pressing);
 }
 
 } // namespace flotsam

@@ -22,7 +22,7 @@ struct CouplingRecord
     std::vector<Vec3> peaks, wallPeaks; ///< as in ContactSummary
 };
 
-/// The order is that of the files: those of earlier versions are read.
+/// The order is that of the files: another one is another formatVersion (io/checkpoint.cpp).
 template <class Archive, class Record>
 void passRecord(Archive& archive, Record& record)
 {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/liggghts/liggghtsDamping.hpp"
 
-
 #include <mpi.h>
 
 #include "atom.h"
@@ -52,8 +51,7 @@ void SphereDamping::beforeForces(const std::vector<std::vector<int>>& nearPlane)
     for (size_t w = 0; w < model_.walls.size(); ++w)
         if (!model_.walls[w].mesh)
             addPlane(w, nearPlane[w]);
-    for (size_t m = 0; m < model_.meshes.size(); ++m)
-        addMesh(m);
+    addMeshes();
     setLevels();
 }
 
@@ -148,13 +146,14 @@ void SphereDamping::addPlane(size_t wall, const std::vector<int>& spheres)
     }
 }
 
-void SphereDamping::addMesh(size_t mesh)
+void SphereDamping::addMeshes()
 {
-    const int wallClass = model_.contacts.classOfWall[static_cast<size_t>(model_.meshes[mesh].walls.front())];
     for (const SphereTriangles& near : model_.near->atTriangles())
-        if (near.mesh == mesh)
-            for (const FacetTouch& touch : facets_.places(near, margins_[static_cast<size_t>(bodyOf(near.sphere))]))
-                addWallContact(near.sphere, wallClass, static_cast<int>(model_.walls.size() + mesh), touch.point);
+    {
+        const int wallClass = model_.contacts.classOfWall[static_cast<size_t>(model_.meshes[near.mesh].walls.front())];
+        for (const FacetTouch& touch : facets_.places(near, margins_[static_cast<size_t>(bodyOf(near.sphere))]))
+            addWallContact(near.sphere, wallClass, static_cast<int>(model_.walls.size() + near.mesh), touch.point);
+    }
 }
 
 SphereDamping::Partner& SphereDamping::partner(const Side& side)

@@ -42,7 +42,7 @@ private:
     int partnerOf(int body, int other);
     void addPairs();
     void addPlane(size_t wall, const std::vector<int>& spheres);
-    void addMesh(size_t mesh);
+    void addMeshes();
     void addWallContact(int sphere, int wallClass, int wall, const Vec3& point);
     Row inverseRoot(int body, const Vec3& arm, const Vec3& normal) const;
     int bodyOf(int sphere) const;

@@ -4,6 +4,8 @@
 #include "demCoupling/liggghts/closestPoint.hpp"
 #include "demCoupling/liggghts/liggghtsHistory.hpp"
 
+#include <mpi.h>
+
 #include "atom.h"
 #include "fix_mesh_surface.h"
 #include "lammps.h"
@@ -80,9 +82,7 @@ void FacetChoice::handOnSpring(const SphereTriangles& near, const FacetTouch& pl
         const bool isPlace = std::any_of(places_.begin(), places_.end(), [t](const FacetTouch& p) { return p.triangle == t; });
         if (isPlace || !touchesTriangle(surface, near.sphere, t))
             continue;
-        Vec3 corners[3];
-        for (int k = 0; k < 3; ++k)
-            surface.triMesh()->node_slow(t, k, corners[k].data());
+        const std::array<Vec3, 3> corners = cornersOf(surface, t);
         if ((closestPointOfTriangle(centre, corners[0], corners[1], corners[2]) - centre).normalized().dot(place.normal) > sameNormal)
             return renameTriangle(surface, near.sphere, t, place.triangle);
     }

@@ -243,6 +243,14 @@ void shrinkContactPages(LiggghtsModel& model)
         MeshHistoryAccess::keptPage(*group.mesh->contactHistory()).init(longest, longest);
 }
 
+std::array<Vec3, 3> cornersOf(LAMMPS_NS::FixMeshSurface& mesh, int triangle)
+{
+    std::array<Vec3, 3> corners;
+    for (int k = 0; k < 3; ++k)
+        mesh.triMesh()->node_slow(triangle, k, corners[static_cast<size_t>(k)].data());
+    return corners;
+}
+
 bool touchesMesh(LAMMPS_NS::FixMeshSurface& mesh, int sphere)
 {
     return MeshHistoryAccess::count(*mesh.contactHistory(), sphere) > 0;
@@ -280,9 +288,7 @@ void findMeshTouches(const LiggghtsModel& model, int sphere, std::vector<MeshTou
             const int t = triangles[slot] >= 0 ? mesh.map(triangles[slot], 0) : -1;
             if (t < 0)
                 continue;
-            Vec3 corners[3];
-            for (int k = 0; k < 3; ++k)
-                mesh.node_slow(t, k, corners[k].data());
+            const std::array<Vec3, 3> corners = cornersOf(*model.meshes[g].mesh, t);
             const Vec3 point = closestPointOfTriangle(centre, corners[0], corners[1], corners[2]);
             const double overlap = atoms.radius[sphere] - (point - centre).norm();
             if (overlap > 0)

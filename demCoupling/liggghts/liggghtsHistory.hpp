@@ -17,6 +17,9 @@ void forEachPairContact(const LiggghtsModel& model, const std::function<void(int
 /// All triangles of all meshes that this sphere (LIGGGHTS index) touches.
 void findMeshTouches(const LiggghtsModel& model, int sphere, std::vector<MeshTouch>& touches);
 
+/// Corners of a triangle of the mesh [m].
+std::array<Vec3, 3> cornersOf(LAMMPS_NS::FixMeshSurface& mesh, int triangle);
+
 /// Whether this sphere touches a triangle of the mesh.
 bool touchesMesh(LAMMPS_NS::FixMeshSurface& mesh, int sphere);
 /// Whether it touches this triangle of the mesh.

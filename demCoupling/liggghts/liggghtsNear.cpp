@@ -130,15 +130,13 @@ void NearSpheres::takeTriangles()
     triangles_.clear();
     for (size_t m = 0; m < model_.meshes.size(); ++m)
     {
-        LAMMPS_NS::TriMesh& mesh = *model_.meshes[m].mesh->triMesh();
-        for (int t = 0; t < mesh.sizeLocal(); ++t)
+        const int nTriangles = model_.meshes[m].mesh->triMesh()->sizeLocal();
+        for (int t = 0; t < nTriangles; ++t)
         {
             const std::vector<int>& spheres = meshList(*model_.meshes[m].mesh, t);
             if (spheres.empty())
                 continue;
-            triangles_.push_back({m, t, {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}, spheres});
-            for (int k = 0; k < 3; ++k)
-                mesh.node_slow(t, k, triangles_.back().corners[static_cast<size_t>(k)].data());
+            triangles_.push_back({m, t, cornersOf(*model_.meshes[m].mesh, t), spheres});
             for (const int i : spheres)
                 markActive(i);
         }

@@ -27,7 +27,7 @@ for name in histories[0].bodies + histories[0].structures:
     weight = 9.81 * a.mass
     for quantity in ("position", "orientation", "velocity", "angularVelocity"):
         check(f"{name} {quantity}", getattr(a, quantity), getattr(b, quantity))
-    for quantity in ("fluidForce", "contactForce"):
+    for quantity in ("fluidForce", "contactForce", "peakContactForce"):
         check(f"{name} {quantity}", getattr(a, quantity)[1:], getattr(b, quantity)[1:], weight)
 a, b = (h.run for h in histories)
 for quantity in ("liquidVolume", "inflow", "outflow", "redistributed", "massError"):

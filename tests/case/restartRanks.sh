@@ -101,7 +101,7 @@ for case, whole, allowed in (("one", "whole", 0.02), ("two", "whole", 0.02), ("t
         sys.exit(f"FAILED: {case} goes on at {b.time[0]} s, it was stopped at {before.time[-1]} s")
     missed, way = 0.0, 0.0
     for name in a.bodies + a.structures:
-        for quantity in quantities + ("fluidForce", "fluidMoment") + (("contactForce", "contactMoment") if name in a.bodies else ()):
+        for quantity in quantities + ("fluidForce", "fluidMoment") + (("contactForce", "contactMoment", "peakContactForce") if name in a.bodies else ()):
             if not np.array_equal(getattr(b[name], quantity)[0], getattr(before[name], quantity)[-1]):
                 sys.exit(f"FAILED: {case}: {quantity} of {name} is not what it was")
     for name in a.bodies:

@@ -7,23 +7,19 @@ Needs no OpenFOAM: python3-vtk9, python3-h5py, python3-numpy. Pictures are in fl
 import functools
 import os
 import sys
-from collections import namedtuple
 
 try:
-    import h5py
     import numpy as np
     import vtkmodules.all as vtk
     from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+
+    from bodyHistory import CaseError, History, Impact, Member, captured, history, historyFile, impacts, momentumLoad, sumForce  # noqa: F401
 except ImportError as error:
     sys.exit(f"{sys.executable}: {error}.\nNeeded: python3-numpy python3-h5py python3-vtk9 python3-matplotlib of the distribution and its "
              "interpreter, usually /usr/bin/python3; . scripts/environment.sh finds it as $FLOTSAM_PYTHON.")
 
 ALPHA = "alpha.water"
 NODAL = {ALPHA: "pointAlpha", "U": "pointU", "p": "pointP"}  # nodal twin of a volume field, where the solver wrote one
-
-
-class CaseError(RuntimeError):
-    """Something is missing in the case; the message says what and where."""
 
 
 # --- fields -----------------------------------------------------------------------------------------------------------
@@ -280,130 +276,6 @@ def waterSurface(case, time, alpha=ALPHA, level=0.5):
     contour.SetValue(0, level)
     contour.Update()
     return contour.GetOutput()
-
-
-# --- bodies.h5 --------------------------------------------------------------------------------------------------------
-
-class Member:
-    """Series of one body or structure member: m.position (n x 3), m.fluidForce, ...; m.mass, m.volume; m.time."""
-
-    def __init__(self, group):
-        self.mass = float(group.attrs.get("mass", 0))
-        self.volume = float(group.attrs.get("volume", 0))
-        self.number = int(group.attrs.get("member", -1))
-        for name in group:
-            setattr(self, name, group[name][...])
-        self.units = {name: group[name].attrs.get("unit", b"") for name in group}
-
-
-class History:
-    """bodies.h5 as numpy arrays; see history()."""
-
-    def __init__(self, file):
-        if not os.path.isfile(file):
-            raise CaseError(f"{file}: no such file; has the solver been run?")
-        with h5py.File(file, "r") as content:
-            self.run = {name: content["run"][name][...] for name in content["run"]}
-            self._members = {}
-            self.bodies, self.structures = [], []
-            for kind, names in (("bodies", self.bodies), ("structures", self.structures)):
-                for name in sorted(content.get(kind, {}), key=lambda n: content[kind][n].attrs.get("member", 0)):
-                    names.append(name)
-                    self._members[kind + "/" + name] = Member(content[kind][name])
-            self.surface = {name: content["surface"][name][...] for name in content.get("surface", {})}
-        self.time = self.run["time"]
-
-    def __getitem__(self, name):
-        """A member by name; "bodies/x" or "structures/x" where both have an x."""
-        found = [m for m in (name, "bodies/" + name, "structures/" + name) if m in self._members]
-        if not found:
-            raise CaseError(f"no body or structure {name}; there are: {', '.join(self.bodies + self.structures)}")
-        return self._members[found[0]]
-
-    def isThere(self, name):
-        """Per record: whether the body is in the mesh, neither to come (beforeRelease absent) nor gone."""
-        return (self[name].awaited < 0.5) & (self[name].left < 0.5)
-
-    def at(self, name, quantity, time):
-        """A series of a member, linear between the records."""
-        values = getattr(self[name], quantity)
-        if values.ndim == 1:
-            return np.interp(time, self.time, values)
-        return np.stack([np.interp(time, self.time, values[:, d]) for d in range(values.shape[1])], axis=-1)
-
-    def mean(self, name, quantity, start, end=np.inf):
-        """Mean of a series over time from start to end (trapezoidal: steps may differ)."""
-        chosen = (self.time >= start) & (self.time <= end)
-        if chosen.sum() < 2:
-            raise CaseError(f"fewer than two records between {start:g} s and {end:g} s")
-        t, values = self.time[chosen], getattr(self[name], quantity)[chosen]
-        return np.trapz(values, t, axis=0) / (t[-1] - t[0])
-
-
-def historyFile(case):
-    """The bodies.h5 of a case (or of the folder that holds it); None where there is none."""
-    for path in ("postProcessing/flotsam/bodies.h5", "bodies.h5"):
-        if os.path.isfile(os.path.join(case, path)):
-            return os.path.join(case, path)
-    return None
-
-
-def history(path):
-    """History of a bodies.h5, given itself, its folder or the case."""
-    return History((historyFile(path) or os.path.join(path, "bodies.h5")) if os.path.isdir(path) else path)
-
-
-def sumForce(h, names, quantity="fluidForce"):
-    """Sum of a series over members, n x 3."""
-    return sum((getattr(h[name], quantity) for name in names), np.zeros((len(h.time), 3)))
-
-
-def momentumLoad(h, name, gravity, released=0.0):
-    """Load of fluid and weight on a body as it changes its momentum in every step, n x 3 [N]: to round-off
-
-        mass (velocity[k] - velocity[k-1]) = (momentumLoad[k] + contactForce[k]) dt[k]
-
-    fluidForce is that at the step's end in the sense of BDF2: a step gets a part of it, and of the step's before the rest (docs/numerics, 6.1), so that plain sums of
-    fluidForce dt agree over many steps only. gravity: vector [m/s2]; released: time until which the body is held [s]. For timeOrder 2, the default.
-    """
-    member = h["bodies/" + name]
-    dt, new = h.run["dt"], member.fluidForce + member.mass * np.asarray(gravity, dtype=float)
-    isFree = h.isThere("bodies/" + name)[1:] & (h.time[:-1] >= released - 1e-9)
-    load = np.zeros_like(new)
-    isFirst = True
-    for k in np.flatnonzero(isFree) + 1:
-        ratio = dt[k] / dt[k - 1] if not isFirst else 0.0
-        share = (1 + ratio) / (1 + 2 * ratio)
-        load[k] = share * new[k] + (1 - share) * load[k - 1]
-        isFirst = False
-    return load
-
-
-Impact = namedtuple("Impact", "begin end peak at impulse")
-
-
-def impacts(h, name, least=0.0):
-    """When a body or structure is struck: a list of Impact(begin, end [s], peak: largest force [N], at: end of the step it falls in [s], impulse: vector [N s]), one for each
-    run of steps in which its contact force exceeds `least` [N] at some instant. What the peak depends on: docs/contact.md, "Largest force of an impact".
-    """
-    member = h[name]
-    size = np.linalg.norm(member.peakContactForce, axis=1)
-    isStruck = np.concatenate(([False], size > least, [False]))
-    turns = np.flatnonzero(isStruck[1:] != isStruck[:-1])
-    found = []
-    for first, end in zip(turns[::2], turns[1::2]):
-        steps = slice(first, end)
-        hardest = first + np.argmax(size[steps])
-        impulse = (member.contactForce * h.run["dt"][:, None])[steps].sum(axis=0)
-        found.append(Impact(h.time[first] - h.run["dt"][first], h.time[end - 1], size[hardest], h.time[hardest], impulse))
-    return found
-
-
-def captured(h, inside, names=None):
-    """Share per time of the bodies that have come in whose position fulfils `inside` (function: positions n x 3 -> n booleans)."""
-    names = ["bodies/" + name for name in (h.bodies if names is None else names)]
-    nInside = sum((inside(h[name].position) & (h[name].awaited < 0.5) for name in names), np.zeros(len(h.time)))
-    return nInside / np.maximum(sum((h[name].awaited < 0.5 for name in names), np.zeros(len(h.time))), 1)
 
 
 # --- report -----------------------------------------------------------------------------------------------------------
