@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Where the members of a group of bodies are: one place, an array, a list of poses, or drawn at random.
 #include "demCoupling/foam/bodyGroup.H"
+#include "demCoupling/foam/structureChecks.H"
 #include "foam/dictionaryChecks.H"
 
 #include "List.H"
@@ -41,7 +42,7 @@ std::string unitsAdvice(const Vec3& size, const Vec3& meshSize)
         " m. Lengths are in m: an STL file in mm needs 'scale 0.001'.");
 }
 
-/// A 2D mesh computes per thickness: a body whose extent differs would have another mass than the water it displaces.
+/// A 2D mesh computes per thickness: a body whose extent or section differs would have another mass than the water it displaces.
 void checkPlanar(const BodyGroup& group, const BodyDefinition& body, const SceneFrame& frame)
 {
     if (!frame.isPlanar) return;
@@ -50,6 +51,12 @@ void checkPlanar(const BodyGroup& group, const BodyDefinition& body, const Scene
     if (std::abs(extent - frame.thickness) > 1e-6*frame.thickness)
         failIn(*group.dict, text("2D mesh: body ", body.name, " must reach through the mesh from front to back. Its extent along ", "xyz"[frame.planeAxis],
             " is ", extent, " m, the mesh's ", frame.thickness, " m.\n    Use a box or cylinder of that length along ", "xyz"[frame.planeAxis], extent > 100*frame.thickness ? ". Lengths are in m: an STL file in mm needs 'scale 0.001'." : "."));
+    Solid solid;
+    solid.shape = body.shape;
+    solid.pose = body.pose;
+    if (!isSameAcross(solid, frame)) // a ball as thick as the mesh
+        failIn(*group.dict, text("2D mesh: body ", body.name, " reaches through the mesh from front to back, but its section changes on the way: the flow would see another volume than that of its mass.\n    Use a box or cylinder along ",
+            "xyz"[frame.planeAxis], ", or a union of these."));
 }
 
 /// Of a body that is not there at the start with what is fixed alone: whether its place is free is seen when it comes in.

@@ -8,6 +8,7 @@
 #include "equations/materials.hpp"
 
 #include "Function1.H"
+#include "OSspecific.H"
 #include "vectorField.H"
 
 #include <algorithm>
@@ -292,6 +293,7 @@ PhaseCondition contactAngle(const ConditionInput& in)
 {
     const double theta = readNumber(in.dict, "theta0", {0, 180});
     if (theta != 90) failIn(in.dict, text("Contact angle theta0 ", theta, " is not modelled; allowed: 90 (the natural condition), as zeroGradient."));
+    Foam::dlOpen("libtwoPhaseProperties.so", false); // of interFoam: OpenFOAM reads and writes the field by its own class of that name
     return naturalPhase(in);
 }
 

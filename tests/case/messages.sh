@@ -76,6 +76,7 @@ refused writeInterval 'setEntry system/controlDict writeInterval 0' controlDict 
 refused twoAcross 'sed -i "s/density/velocity (0.1 0 0.2); density/" constant/bodies' bodies '2D mesh' velocity bar 0.2 'allowed: 0'
 refused twoTurn 'sed -i "s/density/angularVelocity (1 0 0); density/" constant/bodies' bodies '2D mesh' angularVelocity bar 'along x is 1'
 refused twoShort 'sed -i "s/size (0.02 0.02 0.05)/size (0.02 0.02 0.03)/" constant/bodies' bar 'front to back'
+refused twoBall 'sed -i "s/type box; size (0.02 0.02 0.05)/type sphere; radius 0.025/" constant/bodies' bar 'its section changes on the way' 'cylinder along z'
 
 rm -rf pen && cp -r good pen
 (cd pen && sed -i "s/^maxBodyCo/maxBodyCO/" system/controlDict && sed -i 's/^flotsam/flotsm/' system/fvSolution && quietly flotsamFoam -dry-run \
@@ -156,6 +157,13 @@ for steps in '0.05 0.25' '0.02 0.1'; do
     [ "$(grep -c 'Warning: t = 0.1 s: the step of 0.05 s, .* adjustTimeStep no, has a Courant number of 1[0-9.]*: |u| = .* deltaT of 0.0[0-9]* s at most' long/log)" -eq 2 ] || fail "steps that are too long: not told once a run"
     [ "$(grep -c '^  steps of a Courant number above 10  *[2-5]$' long/log)" -eq 2 ] || fail "steps that are too long: not counted in the summary"
 done
+
+# a condition of a library of interFoam's
+rm -rf angle && cp -r good angle
+fixedSteps angle 0.001 0.002 1
+sed '/^    walls/,/}/s/type .*;/type constantAlphaContactAngle; theta0 90; limit none; value uniform 0;/' angle/0.orig/alpha.water > angle/0/alpha.water
+(cd angle && quietly setExprFields && quietly flotsamFoam && grep -q constantAlphaContactAngle 0.002/alpha.water && sed -i 's/^endTime .*/endTime 0.003;/' system/controlDict && quietly flotsamFoam \
+    && quietly decomposePar -latestTime && sed -i 's/^endTime .*/endTime 0.004;/' system/controlDict && quietly mpirun -np 2 flotsamFoam -parallel) || fail "a contact angle of 90 degrees is not accepted"
 
 # in parallel: said once, with the file
 rm -rf once && cp -r good once

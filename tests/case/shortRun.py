@@ -35,6 +35,8 @@ elif name == "floatingBar":
     report.within("height of the centre", h["bar"].position[-1, 1], -0.005, 0.002, "m", "between its start and its swing")
 elif name == "barAgainstPost":
     report.within("force on the post", h["post"].contactForce[-1, 0], 0.01, 1, "N")
+    told = [line.split() for line in open("log.flotsamFoam", encoding="utf-8", errors="replace") if line.split()[:1] == ["post"]]
+    report.compare("mean contact force on the post", h.mean("post", "contactForce", 0)[0], float(told[-1][4]), 1e-3, "N", "the summary's")
     speed = np.abs(h["bar"].velocity).max(axis=1)
     report.within("speed of the bar over its largest", speed[-1]/speed.max(), 0, 0.21, "", "it is held, or rebounds with the restitution, 0.2")
 elif name == "slitDam":

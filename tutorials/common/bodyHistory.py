@@ -7,6 +7,9 @@ import h5py
 import numpy as np
 
 
+OF_STEPS = {"fluidForce", "fluidMoment", "contactForce", "contactMoment"}   # a record has the mean over the step that ends with it
+
+
 class CaseError(RuntimeError):
     """Something is missing in the case; the message says what and where."""
 
@@ -59,12 +62,13 @@ class History:
         return np.stack([np.interp(time, self.time, values[:, d]) for d in range(values.shape[1])], axis=-1)
 
     def mean(self, name, quantity, start, end=np.inf):
-        """Mean of a series over time from start to end (trapezoidal: steps may differ)."""
+        """Mean of a series over time from start to end: of forces and moments over the steps in between, of the rest linear between the records."""
         chosen = (self.time >= start) & (self.time <= end)
         if chosen.sum() < 2:
             raise CaseError(f"fewer than two records between {start:g} s and {end:g} s")
         t, values = self.time[chosen], getattr(self[name], quantity)[chosen]
-        return np.trapz(values, t, axis=0) / (t[-1] - t[0])
+        ofStep = values[1:] if quantity in OF_STEPS else 0.5 * (values[1:] + values[:-1])
+        return np.diff(t) @ ofStep / (t[-1] - t[0])
 
 
 def historyFile(case):
