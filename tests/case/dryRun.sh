@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # flotsamFoam -dry-run checks a case and leaves it as it is, to the last file: fresh and with a stored state, with function objects, on one process and
-# on two. So does the help; an option that is not known ends the run.
+# on two. So does the help; an option that is not known ends the run. The entries that it prints are those of docs/dictionaries.md.
 . "$(dirname "$0")/support.sh"
 mkdir -p "$work" && cd "$work" || exit
 rm -rf ./*
@@ -45,3 +45,9 @@ grep '^Warning: fluid seeps' log.txt > serial.txt
 (cd jam && quietly decomposePar) || exit
 leavesAlone jam 0 '^End' mpirun -np 2 flotsamFoam -parallel -dry-run
 diff <(sed 's/(.*//' serial.txt) <(grep '^Warning: fluid seeps' log.txt | sed 's/(.*//') || fail "other nodes on two processes"
+
+# docs/dictionaries.md has every entry of `flotsam` with its default, and no other
+(cd bar && flotsamFoam -dry-run) | sed -n 's/^    \([A-Za-z]*\) *\([^ ;]*\); *\/\/.*/\1 \2/p' | awk '{ print $1, $2 ~ /^[0-9]/ ? $2 + 0 : $2 }' > printed.txt
+sed -n '/^## .*sub-dictionary flotsam/,/^## constant/ s/^| `\([A-Za-z]*\)` |[^|]*| `*\([^ `|]*\)`* |.*/\1 \2/p' "$here/../../docs/dictionaries.md" | awk '{ print $1, $2 ~ /^[0-9]/ ? $2 + 0 : $2 }' > documented.txt
+[ "$(wc -l < printed.txt)" -gt 30 ] || fail "the dry run prints $(wc -l < printed.txt) entries of flotsam"
+diff printed.txt documented.txt || fail "entries of flotsam and their defaults: < by the dry run, > in docs/dictionaries.md"
