@@ -15,7 +15,7 @@ from urllib.parse import unquote
 
 FOLDERS = "tests docs benchmarks tutorials fluidSolver demCoupling scripts cmake".split()
 GENERATED = {"results", "run", "runs", "log.validate", "log.flotsamFoam", "postProcessing"}   # what runs leave in tutorials and benchmarks
-SKIPPED = {"build", ".git", "runs", "run"}                         # folders whose pages are not the project's
+SKIPPED = {"build", ".git", "runs", "run", "quick"}                # folders whose pages are not the project's
 
 LINK = re.compile(r"\[(?:[^\[\]]|\[[^\]]*\])*\]\(\s*<?([^)\s>]+)>?[^)]*\)")
 CODE = re.compile(r"(`+)(.+?)\1")
@@ -25,7 +25,8 @@ PROGRAM = re.compile(r"\btest_(\w\w+)")                           # not of `test
 
 
 def pages(root):
-    return [p for p in sorted(root.rglob("*.md")) if not SKIPPED & set(p.relative_to(root).parts[:-1])]
+    own = [p for p in sorted(root.rglob("*.md")) if not SKIPPED & set(p.relative_to(root).parts[:-1])]
+    return [p for p in own if p.name != "summary.md"]   # written by the tutorials
 
 
 def lines_of(page):
