@@ -7,7 +7,7 @@ import h5py
 import numpy as np
 
 
-OF_STEPS = {"fluidForce", "fluidMoment", "contactForce", "contactMoment"}   # a record has the mean over the step that ends with it
+OF_STEPS = {"contactForce", "contactMoment"}   # a record has the mean over the step that ends with it; the fluid's is that at its end (momentumLoad)
 
 
 class CaseError(RuntimeError):
@@ -62,7 +62,7 @@ class History:
         return np.stack([np.interp(time, self.time, values[:, d]) for d in range(values.shape[1])], axis=-1)
 
     def mean(self, name, quantity, start, end=np.inf):
-        """Mean of a series over time from start to end: of forces and moments over the steps in between, of the rest linear between the records."""
+        """Mean of a series over time from start to end: contact is constant over each step, the rest linear between the records."""
         chosen = (self.time >= start) & (self.time <= end)
         if chosen.sum() < 2:
             raise CaseError(f"fewer than two records between {start:g} s and {end:g} s")
