@@ -13,6 +13,7 @@
 /// Structures that cut the mesh have edges as well (solidEdges.hpp): the same, of velocities relative to the structure, whose load is the reaction.
 #include "equations/elementLoader.hpp"
 #include "equations/flowEquation.hpp"
+#include "equations/patchForces.hpp"
 #include "equations/rigidCoupling.hpp"
 
 #include <algorithm>
@@ -241,6 +242,34 @@ void FlowEquation::assembleEdges()
     for (const EdgeElement& edge : edgeElements_) addEdgeElement<D>(edge);
 }
 
+/// What these terms leave of a uniform test function: the walls that meet in the edge feel it.
+template<int D>
+void FlowEquation::addEdgeForces(const std::vector<double>& x, PatchForces& forces) const
+{
+    constexpr int N = D + 1, B = D + 1;
+    ElementData<D> data;
+    for (const EdgeElement& edge : edgeElements_)
+    {
+        const int* nodes = &mesh_.elements[std::size_t(edge.element)*N];
+        const int corner = edge.cornerOfEdge(N);
+        if (!mesh_.isOwnedElement[edge.element] || !forces.isNear(nodes[corner])) continue;
+        if (!loadElementData<D>(edge.element, mesh_, step_, fluid_, controls_, nodal_, data)) continue;
+        const EdgeTerms<D> terms(data, edge);
+        for (int a = 0; a < N; ++a)
+        {
+            double m[B*B], force[D];
+            std::copy_n(terms.force[a], D, force);
+            for (int b = 0; b < N; ++b)
+            {
+                terms.block(a, b, m);
+                for (int k = 0; k < D; ++k)
+                    for (int l = 0; l < B; ++l) force[k] += m[k*B + l]*x[std::size_t(nodes[b])*B + l];
+            }
+            forces.addAtEdge(nodes[corner], nodes[a], force);
+        }
+    }
+}
+
 /// From u', which convects with the nodes' velocities: their part across the walls, mean over the element's fluid part. Of structures relative to their motion.
 template<int D>
 void FlowEquation::takeWhatWouldPass(const std::vector<double>& x, std::vector<double>& result) const
@@ -272,6 +301,8 @@ void FlowEquation::takeWhatWouldPass(const std::vector<double>& x, std::vector<d
 
 template void FlowEquation::assembleEdges<2>();
 template void FlowEquation::assembleEdges<3>();
+template void FlowEquation::addEdgeForces<2>(const std::vector<double>&, PatchForces&) const;
+template void FlowEquation::addEdgeForces<3>(const std::vector<double>&, PatchForces&) const;
 template void FlowEquation::addSolidEdge<2>(const SolidEdges::Element&, const Turning<2>&, SolidCoupling&);
 template void FlowEquation::addSolidEdge<3>(const SolidEdges::Element&, const Turning<3>&, SolidCoupling&);
 template void FlowEquation::takeWhatWouldPass<2>(const std::vector<double>&, std::vector<double>&) const;

@@ -29,6 +29,7 @@ struct FreeBody
 };
 
 template<int D> struct Turning;
+class PatchForces;
 
 class FlowEquation
 {
@@ -57,6 +58,9 @@ public:
     /// Volume fluxes of the pressure ghost terms and of films on walls between node pairs, for the conservative transport:
     /// row contributions r_i of face nodes as (r_i - r_j)/(dim+2).
     void ghostFluxes(const std::vector<double>& x, std::vector<PairFlux>& result) const;
+
+    /// Forces of the solution (x, velocities q of the solids) on patches; the state must still hold t^n. Collective.
+    void addPatchForces(const std::vector<double>& x, const std::vector<double>& q, PatchForces& forces) const;
 
     /// nNodes: by a patch, without the edge of the gas that is left out.
     const std::vector<char>& isPatchPressureFixed() const { return isPatchPressureFixed_; }
@@ -108,7 +112,14 @@ private:
     template<int D> void addFilm(int a, int b, double conductance, const double* force);
     template<int D> void assembleOpenBoundaries();
     template<int D> void assemblePatchWalls();
-    template<int D> void addWallFace(const MeshPatch& faces, std::size_t f, bool isSlip, bool hasEdge);
+    bool hasWallTerms(const BoundaryPatch& patch, std::size_t f) const;
+    template<int D, class Use> void forWallFace(const BoundaryPatch& patch, std::size_t f, const Use& use) const;
+    template<int D> void addWallFace(const BoundaryPatch& patch, std::size_t f);
+    template<int D> void addFaceForce(int p, std::size_t f, const std::vector<double>& x, PatchForces& forces) const;
+    template<int D> void addFaceTraction(int p, std::size_t f, const std::vector<double>& x, PatchForces& forces) const;
+    template<int D> void addPatchForcesT(const std::vector<double>& x, PatchForces& forces) const;
+    template<int D> void addEdgeForces(const std::vector<double>& x, PatchForces& forces) const;
+    void addReactions(const std::vector<double>& x, const std::vector<double>& q, PatchForces& forces) const;
     void findEdgeElements(const std::map<int, SlipNormals>& slip);
     template<int D> void assembleEdges();
     template<int D> void addEdgeElement(const EdgeElement& edge);

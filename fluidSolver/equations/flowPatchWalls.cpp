@@ -9,6 +9,7 @@
 #include "equations/elementLoader.hpp"
 #include "equations/faceMoments.hpp"
 #include "equations/flowEquation.hpp"
+#include "equations/patchForces.hpp"
 #include "equations/wallLaw.hpp"
 #include "equations/wallTerms.hpp"
 
@@ -82,25 +83,29 @@ void FlowEquation::assemblePatchWalls()
     for (const BoundaryPatch& patch : patches_)
     {
         if (!patch.isWall()) continue;
-        const bool isSlip = patch.velocity == BoundaryPatch::Velocity::Slip;
         const MeshPatch& faces = mesh_.patches[patch.meshPatch];
         for (std::size_t f = 0; f < faces.faceElement.size(); ++f)
-        {
-            const int* nodes = &faces.faceNodes[f*D];
-            const bool hasEdge = std::any_of(nodes, nodes + D, [&](int i) { return isSlipEdge_[i]; });
-            const bool isBent = std::any_of(nodes, nodes + D, [&](int i) { return isSlipBend_[i]; });
-            if ((!isSlip || hasEdge || isBent) && faces.faceElement[f] < mesh_.nInnerElements) addWallFace<D>(faces, f, isSlip, hasEdge);
-        }
+            if (hasWallTerms(patch, f) && faces.faceElement[f] < mesh_.nInnerElements) addWallFace<D>(patch, f);
     }
 }
 
-template<int D>
-void FlowEquation::addWallFace(const MeshPatch& faces, std::size_t f, bool isSlip, bool hasEdge)
+bool FlowEquation::hasWallTerms(const BoundaryPatch& patch, std::size_t f) const
+{
+    if (!patch.isWall()) return false;
+    const int* nodes = &mesh_.patches[patch.meshPatch].faceNodes[f*mesh_.dim];
+    return patch.velocity == BoundaryPatch::Velocity::NoSlip || std::any_of(nodes, nodes + mesh_.dim, [&](int i) { return isSlipEdge_[i] || isSlipBend_[i]; });
+}
+
+/// Passes use(a, b, block, normal) the terms of a face: rows of the owned corners a of its element, columns of all its corners b.
+template<int D, class Use>
+void FlowEquation::forWallFace(const BoundaryPatch& patch, std::size_t f, const Use& use) const
 {
     constexpr int N = D + 1, B = D + 1;
     ElementData<D> data;
-    const int e = faces.faceElement[f];
+    const MeshPatch& faces = mesh_.patches[patch.meshPatch];
+    const int e = faces.faceElement[f], *ofFace = &faces.faceNodes[f*D];
     if (!loadElement<D>(e, data)) return;
+    const bool isSlip = patch.velocity == BoundaryPatch::Velocity::Slip, hasEdge = std::any_of(ofFace, ofFace + D, [&](int i) { return isSlipEdge_[i]; });
     const int* nodes = &mesh_.elements[std::size_t(e)*N];
     const WallFace<D> face(mesh_, step_.cover, faces, f, nodal_.advection);
     WallCoefficients c = nitscheCoefficients(data, isSlip, controls_.nitscheGamma, mesh_.h[e], penaltyRateOf(e), 0);   // no volume passes: nothing flows in
@@ -115,12 +120,38 @@ void FlowEquation::addWallFace(const MeshPatch& faces, std::size_t f, bool isSli
         {
             const double m2 = face.second[a*N + b];
             terms.block(a, b, face.first[a], face.first[b], m2, m2, m);
-            system_.matrix.add<D>(graph_.slot(nodes[a], (std::size_t(e)*N + a)*N + b), m);
+            use(a, b, m, face.normal);
         }
     }
 }
 
+template<int D>
+void FlowEquation::addWallFace(const BoundaryPatch& patch, std::size_t f)
+{
+    constexpr int N = D + 1;
+    const std::size_t e = mesh_.patches[patch.meshPatch].faceElement[f];
+    const int* nodes = &mesh_.elements[e*N];
+    forWallFace<D>(patch, f, [&](int a, int b, const double* m, const double*) { system_.matrix.add<D>(graph_.slot(nodes[a], (e*N + a)*N + b), m); });
+}
+
+/// What the terms of a face come to: the force on the wall, by the rows that feel it.
+template<int D>
+void FlowEquation::addFaceForce(int p, std::size_t f, const std::vector<double>& x, PatchForces& forces) const
+{
+    constexpr int B = D + 1;
+    const int* nodes = &mesh_.elements[std::size_t(mesh_.patches[patches_[p].meshPatch].faceElement[f])*(D + 1)];
+    forWallFace<D>(patches_[p], f, [&](int a, int b, const double* m, const double* normal)
+    {
+        double force[D] = {};
+        for (int k = 0; k < D; ++k)
+            for (int l = 0; l < B; ++l) force[k] += m[k*B + l]*x[std::size_t(nodes[b])*B + l];
+        forces.addFace(p, nodes[a], force, normal);
+    });
+}
+
 template void FlowEquation::assemblePatchWalls<2>();
 template void FlowEquation::assemblePatchWalls<3>();
+template void FlowEquation::addFaceForce<2>(int, std::size_t, const std::vector<double>&, PatchForces&) const;
+template void FlowEquation::addFaceForce<3>(int, std::size_t, const std::vector<double>&, PatchForces&) const;
 
 } // namespace flotsam

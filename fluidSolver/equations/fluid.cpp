@@ -298,10 +298,31 @@ void Fluid::keepInlets()
     }
 }
 
+void Fluid::watchPatches(const std::vector<int>& patches)
+{
+    watched_ = patches;
+    patchForces_ = std::make_unique<PatchForces>(mesh_, halo_, patches_, patches);
+}
+
+/// Walls feel a sharp surface's pressure, as solids do.
+void Fluid::findPatchForces()
+{
+    patchForces_->start();
+    equation_.addPatchForces(x_, q_, *patchForces_);
+    for (std::size_t k = 0; k < watched_.size() && isGravityBalanced(); ++k)
+    {
+        std::vector<FacetPressure> onFaces;
+        addSurfacePressure(mesh_, fluid_, planes_, surfaceDensity_, level_, cover_, mesh_.patches[patches_[watched_[k]].meshPatch], onFaces);
+        for (const FacetPressure& p : onFaces) patchForces_->addFacet(watched_[k], p.element, p.first, p.normal);
+    }
+    patchForces_->finish();
+}
+
 void Fluid::endStep()
 {
     const int dim = mesh_.dim, B = dim + 1;
     if (controls_.carryRemainder) solver_.remainder(x_, q_, state_.remainder); else state_.remainder.clear();
+    if (patchForces_) findPatchForces();
     equation_.fineScale(x_, state_.fineScaleOld);   // before the time levels move on: of the step's own residual, that of the continuity rows
     std::swap(state_.fineScale, state_.fineScaleOld);
     std::swap(state_.u, state_.uOld);

@@ -16,6 +16,7 @@
 #include "equations/gasRegion.hpp"
 #include "equations/interfacePlanes.hpp"
 #include "equations/massFluxes.hpp"
+#include "equations/patchForces.hpp"
 #include "equations/phaseFieldSupg.hpp"
 #include "equations/shutPockets.hpp"
 #include "equations/squeezedBasins.hpp"
@@ -56,6 +57,11 @@ public:
     /// Fluid force and moment (about the pose's position) on every solid from the last solve, space frame, 3D values.
     struct SolidLoad { Vec3 force, moment; };
     std::vector<SolidLoad> solidLoads() const;
+    /// From now on endStep() finds the forces on these patches (indices in the constructor's), which let no fluid through.
+    void watchPatches(const std::vector<int>& patches);
+    /// Of every patch in the last accepted step, before it and where it is not watched zero.
+    const std::vector<PatchForce>& patchForces() const { return patchForces_->result(); }
+
     /// Velocity of every solid in the last solve (free: solved; others: as given).
     std::vector<Motion> solidMotions() const;
     /// Liquid share of every solid's surface, 0..1. Collective.
@@ -117,6 +123,7 @@ private:
     void setPocketPressures();
     void setFirstGuess();
     void carryRemainder();
+    void findPatchForces();
     TransportReport advancePhase(double dt);
     TransportReport transportPhase(double dt, const std::vector<double>& u, const std::vector<double>& fine);
     double levelTolerance() const;
@@ -158,6 +165,8 @@ private:
     TimeScheme time_;
     std::vector<double> surfaceDensity_; // nNodes, work of setGravity()
     std::vector<FacetPressure> surfacePressure_;
+    std::unique_ptr<PatchForces> patchForces_;  // null: none asked for
+    std::vector<int> watched_;                  // patches
     std::vector<double> force_;         // nElements*dim; empty between advancePhase() and setGravity()
     std::vector<double> x_, q_;         // solution: nNodes*(dim+1), nDof per solid; x_ is void between endStep() and setFirstGuess(), and lends its memory
     std::vector<PairFlux> ghostFlux_;   // of the last accepted solve

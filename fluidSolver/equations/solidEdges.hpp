@@ -10,6 +10,7 @@
 #include "equations/facetGroups.hpp"
 #include "geometry/solid.hpp"
 
+#include <algorithm>
 #include <vector>
 
 namespace flotsam
@@ -20,6 +21,14 @@ struct EdgeElement
 {
     int element;
     double across[4][9] = {};   ///< Q, dim*dim: n n of the wall by the element's share over it, at the corners on the edge; elsewhere zero
+
+    /// The first of n corners that is on the edge.
+    int cornerOfEdge(int n) const
+    {
+        int corner = 0;
+        while (corner + 1 < n && std::all_of(across[corner], across[corner] + 9, [](double value) { return value == 0; })) ++corner;
+        return corner;
+    }
 };
 
 /// The edges of solids whose motion is given, from the facets of the cut.

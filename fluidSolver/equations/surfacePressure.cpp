@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "equations/surfacePressure.hpp"
 
+#include "core/patchFaces.hpp"
 #include "equations/gravity.hpp"
 #include "geometry/cutSimplex.hpp"
 
@@ -110,9 +111,9 @@ struct ProfileElement
 
 /// Adds the difference on one facet; p: what is known of it but `first`.
 template<int D>
-void addDifference(const ProfileElement<D>& profile, const FluidProperties& fluid, double area, const double (*shape)[4], FacetPressure p, std::vector<FacetPressure>& result)
+void addDifference(const ProfileElement<D>& profile, const FluidProperties& fluid, double area, const std::array<Corner<D>, D>& corners, FacetPressure p,
+    std::vector<FacetPressure>& result)
 {
-    const std::array<Corner<D>, D> corners = cornersOf<D>(shape);
     integrate<D>(corners, area, profile.pressure, -1, p.first);
     integrate<D>(corners, area, profile.potential, fluid.rhoGas, p.first);
     integrateWet<D>(corners, area, profile.level, profile.potential, fluid.rhoLiquid - fluid.rhoGas, p.first);
@@ -132,7 +133,7 @@ void addSurfacePressureT(const SimplexMesh& mesh, const FluidProperties& fluid, 
             const CutFacet& facet = cover.facets[f];
             FacetPressure p{cut.element, facet.solid, {}, {}, false};
             std::copy_n(facet.normal, D, p.normal);
-            addDifference<D>(profile, fluid, facet.area, facet.shape, p, result);
+            addDifference<D>(profile, fluid, facet.area, cornersOf<D>(facet.shape), p, result);
         }
     }
     for (const CoveredFacet& facet : cover.coveredFacets)
@@ -142,11 +143,39 @@ void addSurfacePressureT(const SimplexMesh& mesh, const FluidProperties& fluid, 
         if (!profile.isAny || area == 0) continue;
         FacetPressure p{facet.element, facet.solid, {}, {}, true};
         for (int d = 0; d < D; ++d) p.normal[d] = facet.area[d]/area;
-        addDifference<D>(profile, fluid, facet.nPoints*area, facet.shape, p, result);
+        addDifference<D>(profile, fluid, facet.nPoints*area, cornersOf<D>(facet.shape), p, result);
+    }
+}
+
+template<int D>
+void addOnPatch(const SimplexMesh& mesh, const FluidProperties& fluid, const InterfacePlanes& planes, const std::vector<double>& ofSurface,
+    const std::vector<double>& levels, const Cover* cover, const MeshPatch& patch, std::vector<FacetPressure>& result)
+{
+    for (std::size_t f = 0; f < patch.faceElement.size(); ++f)
+    {
+        const int e = patch.faceElement[f], *face = &patch.faceNodes[f*D], *nodes = &mesh.elements[std::size_t(e)*(D + 1)];
+        const auto isInSolid = [&](int i) { return cover && cover->distance[i] < 0; };
+        if (!patch.isOwnedFace[f] || std::any_of(face, face + D, isInSolid)) continue;
+        const ProfileElement<D> profile(mesh, fluid, planes, ofSurface, levels, e);
+        if (!profile.isAny) continue;
+        std::array<Corner<D>, D> corners{};
+        for (int k = 0; k < D; ++k) corners[k].n[std::find(nodes, nodes + D + 1, face[k]) - nodes] = 1;
+        FacetPressure p{e, -1, {}, {}, false};
+        outwardVector(mesh, patch, f, p.normal);
+        const double area = std::hypot(p.normal[0], p.normal[1], D == 3 ? p.normal[2] : 0.0);
+        for (int d = 0; d < D; ++d) p.normal[d] /= area;
+        addDifference<D>(profile, fluid, area, corners, p, result);
     }
 }
 
 } // namespace
+
+void addSurfacePressure(const SimplexMesh& mesh, const FluidProperties& fluid, const InterfacePlanes& planes, const std::vector<double>& ofSurface,
+    const std::vector<double>& level, const Cover* cover, const MeshPatch& patch, std::vector<FacetPressure>& result)
+{
+    if (mesh.dim == 2) addOnPatch<2>(mesh, fluid, planes, ofSurface, level, cover, patch, result);
+    else addOnPatch<3>(mesh, fluid, planes, ofSurface, level, cover, patch, result);
+}
 
 void addSurfacePressure(const SimplexMesh& mesh, const FluidProperties& fluid, const InterfacePlanes& planes, const std::vector<double>& ofSurface,
     const std::vector<double>& level, const Cover& cover, std::vector<FacetPressure>& result)

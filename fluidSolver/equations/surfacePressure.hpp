@@ -25,4 +25,8 @@ struct FacetPressure
 void addSurfacePressure(const SimplexMesh& mesh, const FluidProperties& fluid, const InterfacePlanes& planes, const std::vector<double>& ofSurface,
     const std::vector<double>& level, const Cover& cover, std::vector<FacetPressure>& result);
 
+/// The same on faces of a patch that no solid covers; only those that are owned here. `solid` is -1.
+void addSurfacePressure(const SimplexMesh& mesh, const FluidProperties& fluid, const InterfacePlanes& planes, const std::vector<double>& ofSurface,
+    const std::vector<double>& level, const Cover* cover, const MeshPatch& patch, std::vector<FacetPressure>& result);
+
 } // namespace flotsam
