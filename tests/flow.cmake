@@ -88,6 +88,7 @@ flotsam_test(roundBody verification SOURCES verification/roundBody.cpp LIBRARIES
 flotsam_test(leavingBodies verification SOURCES verification/leavingBodies.cpp LIBRARIES flotsam_flow_support RANKS 1 2)
 flotsam_test(touchingBodies verification SOURCES verification/touchingBodies.cpp LIBRARIES flotsam_flow_support RANKS 1 2)
 flotsam_test(surfacePressure verification SOURCES verification/surfacePressure.cpp LIBRARIES flotsam_flow_support RANKS 1 2)
+flotsam_test(patchForces verification SOURCES verification/patchForces.cpp LIBRARIES flotsam_flow_support RANKS 1 2)
 flotsam_test(surfaceTimeOrder verification SOURCES verification/surfaceTimeOrder.cpp LIBRARIES flotsam_flow_support)
 flotsam_test(carriedPhase verification SOURCES verification/carriedPhase.cpp LIBRARIES flotsam_flow_support RANKS 1 2)
 flotsam_test(actionReaction verification SOURCES verification/actionReaction.cpp
