@@ -18,6 +18,7 @@
 #include "foam/otherInput.H"
 #include "foam/patchReport.H"
 #include "foam/startReport.H"
+#include "foam/wallForces.H"
 #include "foam/writeTimes.H"
 
 #include "core/bodyWalls.hpp"
@@ -249,6 +250,8 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         patch.stopsBodies = std::find(bodies.wallPatches.begin(), bodies.wallPatches.end(), patch.name) != bodies.wallPatches.end();
     takeBodyWalls(adapter.mesh, boundary);
     printCaseCheck(controls, adapter, halo, boundary, countScene(bodies));
+    const std::vector<WallForceGroup> wallForces = readWallForces(runTime.controlDict(), mesh.boundaryMesh(), adapter.mesh, boundary);
+    reportWallForces(wallForces);
     const auto report = [&](const FlowState& state) { reportAnew(controls, adapter.mesh, halo, bodies, state); };
     PhaseTimers timers;
     if (task == Task::Check)
@@ -276,6 +279,8 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     reportPatches(controls, adapter, halo, boundary, step.fluid().state(), step.cover(), runTime.value());
     WriteTimes writeTimes(runTime, output.firstStart(), output.lastStep(), controls.time.adjustTimeStep ? motionJumps(bodies) : std::vector<double>());
     output.begin(step);
+    WallForceFiles forceFiles(runTime, adapter.mesh, wallForces);
+    if (!wallForces.empty()) step.fluid().watchPatches(watchedPatches(wallForces));
     mesh.primitiveMesh::clearAddressing();  // cells, edges and the like that only the start needed; the geometry must stay: fields of the fvMesh are slices of it
     installStopSignals();
 
@@ -302,6 +307,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         step.fluid().state().time = runTime.value(); // OpenFOAM's clock, to the last digit
 
         output.record(step, result, limit, rates*used);
+        if (!wallForces.empty()) forceFiles.write(runTime.value(), step.fluid().patchForces(), contactForces(wallForces, bodies, step.coupling()));
         if (!time.adjustTimeStep) output.watchCourant(step, courantRates(step, 0)*used, used);
         const double endTime = runTime.endTime().value(); // a signal changes it
         if (write(runTime, halo, step, fields, output, timers, dt)) isComplete = runTime.value() > endTime - 0.5*used;

@@ -93,6 +93,7 @@ struct WallDefinition
 {
     enum class Kind { Plane, Surface };
     std::string name;
+    std::string patch;                      ///< of the mesh; empty: a structure
     Kind kind = Kind::Plane;
     Vec3 point = Vec3::Zero(), normal = Vec3::UnitZ(); ///< plane; normal points to the side of the bodies
     TriSurface surface;                     ///< Surface: in space

@@ -108,7 +108,7 @@ std::vector<WallDefinition> makeMeshWalls(const Foam::polyMesh& mesh, const Foam
 {
     constexpr std::size_t mostPlanes = 12; // of a patch; a curved one has more
     WallDefinition rest;
-    rest.name = patch.name();
+    rest.name = rest.patch = patch.name();
     rest.material = material;
     rest.kind = WallDefinition::Kind::Surface;
     rest.surface = stitched(gatherAll(localTriangles(mesh, patch), halo.comm()));
@@ -127,7 +127,7 @@ std::vector<WallDefinition> makeMeshWalls(const Foam::polyMesh& mesh, const Foam
             continue;
         }
         WallDefinition wall;
-        wall.name = patch.name();
+        wall.name = wall.patch = patch.name();
         if (parts.size() > 1) wall.name += "." + std::to_string(walls.size() + 1);
         wall.material = material;
         wall.kind = WallDefinition::Kind::Plane;

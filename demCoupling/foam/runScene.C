@@ -3,6 +3,7 @@
 
 #include "algebra/needlessWork.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace flotsam
@@ -54,6 +55,20 @@ DemSetup makeDemSetup(const BodiesInput& input, double timeStep, double startTim
     setup.timeStep = timeStep;
     setup.hasContactStepsOnly = doesNeedless("demSteps");
     return setup;
+}
+
+std::vector<ContactForce> contactForces(const std::vector<WallForceGroup>& groups, const BodiesInput& input, const BodyCoupling* bodies)
+{
+    std::vector<ContactForce> result(groups.size());
+    for (std::size_t g = 0; g < groups.size() && bodies; ++g)
+        for (std::size_t w = 0; w < input.walls.size(); ++w)
+        {
+            const std::vector<std::string>& names = groups[g].patchNames;
+            if (std::find(names.begin(), names.end(), input.walls[w].patch) == names.end()) continue;
+            result[g].force += bodies->wallLoads()[w].force;
+            result[g].moment += bodies->wallLoads()[w].moment;
+        }
+    return result;
 }
 
 } // namespace flotsam

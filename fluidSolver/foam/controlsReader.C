@@ -252,7 +252,7 @@ std::vector<std::pair<std::string, std::string>> misplacedNumerics(const Foam::d
 
 std::vector<std::string> controlDictEntries()
 {
-    return {"adjustTimeStep", "maxCo", "maxAlphaCo", "maxBodyCo", "maxDeltaT", "minDeltaT",
+    return {"adjustTimeStep", "maxCo", "maxAlphaCo", "maxBodyCo", "maxDeltaT", "minDeltaT", "wallForces",
         // OpenFOAM's
         "application", "startFrom", "startTime", "stopAt", "endTime", "beginTime", "deltaT", "writeControl", "writeInterval", "purgeWrite", "writeFormat",
         "writePrecision", "writeCompression", "writeVersion", "graphFormat", "timeFormat", "timePrecision", "runTimeModifiable", "secondaryWriteControl",

@@ -36,7 +36,8 @@ void checkFunctionObjects(const Foam::dictionary& functions)
         const std::string type = readWordOr(e.dict(), "type", "");
         if (std::find(needTurbulence.begin(), needTurbulence.end(), type) == needTurbulence.end()) continue;
         failIn(e.dict(), text("Function object '", std::string(e.keyword()), "' of type ", type, " needs OpenFOAM's turbulence model, which there is none of: it would end the run at its first step.\n"
-            "    Remove it, or set 'enabled no;'. surfaceFieldValue with areaIntegrate of p gives the pressure force on a plane patch; structures of constant/bodies have their forces in bodies.h5."));
+            "    Remove it, or set 'enabled no;'. For forces on patches give them in system/controlDict:  wallForces { ", std::string(e.keyword()), " { patches (names); origin (0 0 0); } }  (docs/output.md, Forces on patches);"
+            " structures of constant/bodies have theirs in bodies.h5."));
     }
 }
 
