@@ -146,8 +146,8 @@ struct FlowLinearSolver::Implementation
         const double smallest = std::max(negligible*wanted, system.roundOff());
         // The first solve makes the whole pressure. What it leaves of that goes into vortices, which are solutions of the later steps: these do not take them back
         if (isFirst) return smallest;
-        // The right-hand side is mostly inertia over the time step, 150 times the forces in a vortex street: whoever looks at a solid wants these
-        if (system.hasSolids())
+        // The right-hand side is mostly inertia over the time step, 150 times the forces in a vortex street: whoever looks at a solid or at forces on patches wants these
+        if (system.areForcesAsked())
         {
             const PetscScalar* r;
             check(VecGetArrayRead(rhs, &r));

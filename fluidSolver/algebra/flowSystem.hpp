@@ -81,6 +81,7 @@ struct FlowSystem
     std::vector<int> level;                     ///< nNodes: the group of a node, -1: its pressure has no mean to keep; empty: no groups
     std::vector<double> levelWeight;            ///< nOwned, sum 1 over the nodes of a group (all ranks): the mean that a solve keeps; empty: no groups
     double viscousNumber = 0;                   ///< mean of mu dt/(rho h^2) over the elements with fluid (all ranks)
+    bool areForcesAsked = false;                ///< those on patches of the mesh: solved as exactly as with solids
     bool isFirst = false;                       ///< of a run: nothing is known of the solution
     bool isNewMatrix = true;                    ///< assembled since the last solve; else only right-hand sides of solids have changed
 };

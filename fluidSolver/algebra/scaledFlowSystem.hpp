@@ -26,7 +26,7 @@ public:
     /// Collective. Diagonal blocks of the system (kept by reference) and, when it pays, new hierarchies.
     void set(const FlowSystem& system);
 
-    bool hasSolids() const { return !system_->solids.empty(); }
+    bool areForcesAsked() const { return system_->areForcesAsked || !system_->solids.empty(); }
     int nEntries() const { return mesh_.nOwned*B_ + solids_.nLocalEntries(); }
     void multiply(const double* x, double* y);
     void precondition(const double* r, double* z);

@@ -301,6 +301,7 @@ void Fluid::keepInlets()
 void Fluid::watchPatches(const std::vector<int>& patches)
 {
     watched_ = patches;
+    equation_.system().areForcesAsked = true;
     patchForces_ = std::make_unique<PatchForces>(mesh_, halo_, patches_, patches);
 }
 
