@@ -59,7 +59,10 @@ refused unknownShape 'sed -i "s/type box/type bocks/" constant/bodies' bodies bo
 refused unknownBodyKeyword 'sed -i "s/density/densty/" constant/bodies' densty density
 refused noMesh 'rm -r constant/polyMesh' 'There is no mesh' polyMesh/points blockMesh
 refused patchWithoutCondition 'sed -i "s/^    walls/    wals/" 0/U' 0/U "Patch 'walls' of the mesh has no condition" "'wals' (of walls?)"
-refused forces 'echo "functions { drag { type forces; libs (forces); patches (walls); } }" >> system/controlDict' "'drag' of type forces" controlDict.functions.drag 'enabled no'
+refused forces 'echo "functions { drag { type forces; libs (forces); patches (walls); } }" >> system/controlDict' "'drag' of type forces" controlDict.functions.drag 'enabled no' 'wallForces { drag { patches'
+refused wallForcesPatch 'echo "wallForces { dam { patches (wals); } }" >> system/controlDict' controlDict.wallForces.dam "'wals' is no patch" 'Walls of the mesh: walls' 'Did you mean: walls'
+refused wallForcesOpen 'echo "wallForces { top { patches (atmosphere); } }" >> system/controlDict' controlDict.wallForces.top 'atmosphere is no wall' 'Walls of the mesh: walls'
+refused wallForcesEmpty 'echo "wallForces { none { patches (); } }" >> system/controlDict' controlDict.wallForces.none 'at least one patch' 'walls of the mesh: walls'
 refused otherTurbulence 'sed "s/laminar/RAS/; s/turbulenceProperties/momentumTransport/" constant/turbulenceProperties > constant/momentumTransport' RAS momentumTransport 'allowed: laminar'
 refused wordForNumber 'sed -i "s/590;/wood;/" constant/bodies' "'density' is 'wood', but must be a number larger than 0" 'constant/bodies.bodies.bar.density at line 16'
 refused posesWithoutGroups 'sed -i "s/position .*(0 0.001 0.025);/poses ( (0 0.001 0.025) );/" constant/bodies' "'poses' is" 'list of groups' constant/bodies.bodies.bar.poses

@@ -13,6 +13,7 @@ TEST_CASE("function objects that need a turbulence model are refused by name, un
     const auto message = [](const std::string& functions) { return messageOf([&] { checkFunctionObjects(parse(functions)); }); };
     const std::string refused = message("level { type probes; } drag { type forces; patches (pier); }");
     CHECK(refused.find("Function object 'drag' of type forces") != std::string::npos);
+    CHECK(refused.find("wallForces { drag { patches (names); origin (0 0 0); } }") != std::string::npos);
     CHECK(refused.find("bodies.h5") != std::string::npos);
     CHECK(!message("shear { type wallShearStress; }").empty());
     CHECK(!message("shear { type wallShearStress; enabled on; }").empty());
