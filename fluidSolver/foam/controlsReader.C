@@ -64,7 +64,7 @@ const std::vector<ControlEntry>& controlsTable()
         {"gasDepth", &N::gasDepth, {0, 1000}, "rings of elements around the water in which the gas is computed; 0: everywhere"},
         {"criticalInlet", &N::criticalInlet, anyValue, "on: a level that floats at an inlet does not fall below the critical one; off: it is that inside"},
         {"tolerance", &N::tolerance, {0, 0.1, true}, "relative residual of the linear solve"},
-        {"forceTolerance", &N::forceTolerance, {0, 1, true}, "with solids: residual of the linear solve over the forces that change the motion"},
+        {"forceTolerance", &N::forceTolerance, {0, 1, true}, "with solids or wallForces: residual of the linear solve over the forces that change the motion"},
         {"carryRemainder", &N::carryRemainder, anyValue, "on: what a linear solve leaves is carried into the next step; off: forgotten"},
         {"maxIterations", &N::maxIterations, {1, 100000}, "of the linear solve; a step that needs more is repeated smaller"},
         {"restart", &N::restart, {2, 1000}, "Krylov vectors kept at most"},
