@@ -53,7 +53,7 @@ struct NumericsControls
     bool criticalInlet = true;      ///< a level that floats at an inlet does not fall below the critical one of its discharge
     // linear solver
     double tolerance = 1e-4;        ///< residual of the scaled system over its right-hand side
-    double forceTolerance = 1e-4;   ///< with solids: the same over the forces that change the motion
+    double forceTolerance = 1e-4;   ///< with solids or asked forces on patches: the same over the forces that change the motion
     bool carryRemainder = true;     ///< what a solve leaves of inertia and volume goes into the right-hand side of the next step's
     int maxIterations = 200;
     int restart = 100;
