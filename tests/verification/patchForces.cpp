@@ -2,6 +2,8 @@
 /// Forces on patches: weight and pressure of water at rest, friction of a shear flow, action and reaction where walls meet in edges.
 #include "equations/interfaceWidth.hpp"
 #include "equations/surfaceLevel.hpp"
+#include "geometry/coverBuilder.hpp"
+#include "geometry/primitives.hpp"
 #include "support/budgets.hpp"
 #include "support/flowCases.hpp"
 #include "support/near.hpp"
@@ -151,6 +153,27 @@ TEST_CASE("a tank at rest: the bottom carries the water, a side rho g h^2/2 a me
                 const double arm = tank.on("xMax").pressureMoment[dim == 2 ? 2 : 1]/forceOn(tank.on("xMax"))[0];
                 CHECK(std::abs(arm) == near(tank.level/3, 1e-2));
             }
+}
+
+TEST_CASE("a pile through bed and surface of a tank at rest: walls and pile together have the weight of what is left, the bed that of the water beside the pile")
+{
+    for (const int dim : {2, 3})
+        for (const Velocity kind : {Velocity::Slip, Velocity::NoSlip})
+        {
+            Tank tank(dim, dim == 2 ? 20 : 12, 0, kind);
+            std::vector<Solid> solids(1);   // 2D: a wall that stands on the bed
+            solids[0].shape = dim == 2 ? makeBox(Vec3(0.103, 0.1, 0.025), Vec3(0.033, 0.5, 0.2)) : makeCylinder(Vec3(0.103, 0.026, -1), Vec3(0.103, 0.026, 1), 0.0162);
+            CoverBuilder builder(tank.mesh, tank.fluid->graph(), tank.halo);
+            const Cover& cover = builder.build(solids);
+            tank.fluid->setGeometry(&cover, &solids, true);
+            advance(*tank.fluid, 2e-3, 3);
+            const Vec3 pile = tank.fluid->solidLoads()[0].force, all = sumOf(*tank.fluid), weight = fluidBudget(*tank.fluid, tank.properties, tank.controls, &cover).weight;
+            const double size = weight.norm(), beside = -1000*g*tank.level*(0.2*0.05 - (dim == 2 ? 0.033*0.05 : M_PI*0.0162*0.0162));
+            if (isRoot()) std::printf("%dD, %s, with a pile: sum %.1e off the weight, bed %.1e off the water's, pile %.1e of it\n", dim, kind == Velocity::Slip ? "slip" : "no-slip",
+                (all + pile - weight).norm()/size, forceOn(tank.on(dim == 2 ? "yMin" : "zMin"))[dim - 1]/beside - 1, pile.norm()/size);
+            CHECK((all + pile - weight).norm() < 2e-3*size);
+            CHECK(forceOn(tank.on(dim == 2 ? "yMin" : "zMin"))[dim - 1] == near(beside, 2e-2)); // 3D: the cut pile of two elements is a polygon
+        }
 }
 
 TEST_CASE("water at rest over a re-entrant edge: all walls together have its weight, to round-off")
