@@ -2,6 +2,7 @@
 flotsam_test(shapes unit SOURCES unit/shapes.cpp LIBRARIES flotsam_geometry)
 flotsam_test(unionShapes unit SOURCES unit/unionShapes.cpp LIBRARIES flotsam_geometry flotsam_test_support)
 flotsam_test(faceTriangles unit SOURCES unit/faceTriangles.cpp LIBRARIES flotsam_geometry)
+flotsam_test(thinTriangles unit SOURCES unit/thinTriangles.cpp LIBRARIES flotsam_geometry)
 flotsam_test(stlShape unit SOURCES unit/stlShape.cpp LIBRARIES flotsam_geometry)
 flotsam_test(surfaceSpheres unit SOURCES unit/surfaceSpheres.cpp LIBRARIES flotsam_geometry)
 flotsam_test(cutSimplex unit SOURCES unit/cutSimplex.cpp LIBRARIES flotsam_geometry)

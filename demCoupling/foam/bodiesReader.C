@@ -6,6 +6,7 @@
 #include "demCoupling/foam/movingStructures.H"
 #include "demCoupling/foam/repeatedGroups.hpp"
 #include "demCoupling/foam/structureChecks.H"
+#include "demCoupling/foam/wallTriangles.H"
 #include "foam/dictionaryChecks.H"
 
 #include "IOdictionary.H"
@@ -302,7 +303,7 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
         Foam::Info << "constant/bodies: the mesh has no patch of type wall and no mirror plane, so bodies can leave it everywhere. If that is not meant: wallPatches (names);" << Foam::nl;
     Obstacles obstacles = makeObstacles(input, frame); // the patches; structures by their shapes
     addStructureWalls(input);
-    checkWallTriangles(input, dict);
+    divideWallTriangles(input, dict);
     addMovers(dict, frame, groups, input);
     placeAll(groups, frame, obstacles);
     for (BodyGroup& group : groups)

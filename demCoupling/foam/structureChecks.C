@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/foam/structureChecks.H"
-
-#include "demCoupling/core/thinTriangles.hpp"
+#include "demCoupling/foam/shortList.H"
 
 #include "foam/dictionaryChecks.H"
 #include "geometry/primitives.hpp"
@@ -94,23 +93,6 @@ bool liesInOther(const std::vector<StructureDefinition>& structures, std::size_t
     return false;
 }
 
-/// The first few of many, for a message.
-class ShortList
-{
-public:
-    void add(const std::string& entry)
-    {
-        if (++count_ <= most_) text_ += (count_ > 1 ? "; " : "") + entry;
-    }
-    bool isEmpty() const { return count_ == 0; }
-    std::string text() const { return count_ > most_ ? flotsam::text(text_, " and ", count_ - most_, " more") : text_; }
-
-private:
-    static constexpr int most_ = 3;
-    int count_ = 0;
-    std::string text_;
-};
-
 void warnUneven(const BodiesInput& input, const SceneFrame& frame)
 {
     ShortList uneven;
@@ -162,26 +144,6 @@ void checkCovering(const BodiesInput& input, const SimplexMesh& mesh, const Halo
         const Vec3 size = boundsOf(s)[1] - boundsOf(s)[0], meshSize = input.box[1] - input.box[0];
         failIn(dict, text("Structure '", s.solid.name, "' covers the whole mesh: it is ", size[0], " m x ", size[1], " m x ", size[2], " m, the mesh ",
             meshSize[0], " m x ", meshSize[1], " m x ", meshSize[2], " m, and no fluid is left.\n    Lengths are in m: an STL file in mm needs 'scale 0.001'."));
-    }
-}
-
-void checkWallTriangles(const BodiesInput& input, const Foam::dictionary& dict)
-{
-    for (const WallDefinition& wall : input.walls)
-    {
-        if (wall.kind != WallDefinition::Kind::Surface) continue;
-        const TriSurface& s = wall.surface;
-        const auto box = boundsOf(s);
-        const double extent = (box[1] - box[0]).norm();
-        for (const auto& t : s.triangles)
-        {
-            const Vec3& a = s.points[t[0]];
-            const ThinTriangle thin(a, s.points[t[1]], s.points[t[2]]);
-            if (!thin.isRefused || thin.isNegligible(extent)) continue;
-            failIn(dict, text("The surface of ", wall.name, " has a triangle ", thin.length, " m long and ", thin.width, " m wide at (", a[0], ' ', a[1], ' ', a[2],
-                "): the contact engine takes none with an angle below ", needleAngle, " rad. Divide long narrow triangles of an STL file (surfaceMeshTriangulate, a CAD program's remeshing), "
-                "make cells at a patch less flat, or let bodies not feel it ('contact off;' of a structure, wallPatches)."));
-        }
     }
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Walls: axis-aligned planes as primitives, everything else as triangles through a temporary STL file.
-#include "demCoupling/core/thinTriangles.hpp"
 #include "demCoupling/liggghts/liggghtsParts.hpp"
-#include "geometry/triSurface.hpp"
+#include "geometry/thinTriangles.hpp"
 
 #include <mpi.h>
 
@@ -68,17 +67,12 @@ private:
 
 void writeStl(TemporaryFile& stl, const TriSurface& surface)
 {
-    const auto box = boundsOf(surface);
-    const double extent = (box[1] - box[0]).norm();
     std::fprintf(stl.file(), "solid wall\n");
     for (const std::array<int, 3>& t : surface.triangles)
     {
         const Vec3 &a = surface.points[static_cast<size_t>(t[0])], &b = surface.points[static_cast<size_t>(t[1])],
                    &c = surface.points[static_cast<size_t>(t[2])];
         const Vec3 normal = (b - a).cross(c - a);
-        const ThinTriangle thin(a, b, c);
-        if ((thin.isRefused && thin.isNegligible(extent)) || normal.norm() < 1e-12 * extent * extent)
-            continue;
         const Vec3 n = normal.normalized();
         std::fprintf(stl.file(), "facet normal %.17g %.17g %.17g\nouter loop\n", n.x(), n.y(), n.z());
         for (const Vec3& p : {a, b, c})
@@ -182,12 +176,23 @@ MeshGroup& groupFor(LiggghtsModel& model, const std::array<Vec3, 2>& box, int co
     return model.meshes.back();
 }
 
+/// Too narrow or too small for LIGGGHTS, and for anything to be felt. extent: of its own surface, however far the mesh reaches that it is part of.
+bool isLeftOut(const Vec3& a, const Vec3& b, const Vec3& c, double extent)
+{
+    constexpr double tellsPoints = 1e-8; // LIGGGHTS takes nearer ones for one point [m]
+    const ThinTriangle thin(a, b, c);
+    const double smallest = std::max(1e-6 * extent, 10 * tellsPoints);
+    return (thin.isRefused && thin.isNegligible(extent)) || (b - a).cross(c - a).norm() < smallest * smallest;
+}
+
 void append(TriSurface& surface, const TriSurface& more)
 {
     const int first = static_cast<int>(surface.points.size());
+    const double extent = extentOf(more);
     surface.points.insert(surface.points.end(), more.points.begin(), more.points.end());
     for (const std::array<int, 3>& t : more.triangles)
-        surface.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+        if (!isLeftOut(more.points[static_cast<size_t>(t[0])], more.points[static_cast<size_t>(t[1])], more.points[static_cast<size_t>(t[2])], extent))
+            surface.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "demCoupling/core/thinTriangles.hpp"
+#include "geometry/thinTriangles.hpp"
 #include "support/near.hpp"
 #include "unit/demSupport.hpp"
 

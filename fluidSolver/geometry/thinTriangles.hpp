@@ -31,4 +31,21 @@ struct ThinTriangle
     bool isNegligible(double extent) const { return width < narrowestWallTriangle*extent; }
 };
 
+/// Of the box around a surface, its diagonal [m].
+double extentOf(const TriSurface& surface);
+
+/// A surface without triangles that the contact engine refuses.
+struct DividedSurface
+{
+    TriSurface surface;     ///< the points of the given one first
+    std::size_t divided = 0, pieces = 0, leftOut = 0;   ///< triangles that were divided, of these pieces, and negligible ones without pieces
+};
+
+/// Divides thin triangles across their length, each on its own or with its neighbour where both make a plane strip; the others stay as they are. Pieces lie in the triangle's plane and cover it,
+/// exactly (to round-off) where it is wider than narrowestWallTriangle; towards a corner with an angle below the limit, which no division makes larger, they are of that width instead, over the
+/// edges by 0.71 of it at most. So are those of triangles that are nowhere wider, where several lie side by side; single ones are left out, and any that are narrower than round-off. A triangle
+/// becomes at most 242 pieces. Where there would be more than `most` the division ends, with pieces > most.
+/// New points lie on edges of neighbours that are not divided: contact goes by the nearest points of triangles, and has one of each place.
+DividedSurface divideThinTriangles(const TriSurface& surface, std::size_t most);
+
 } // namespace flotsam
