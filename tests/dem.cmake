@@ -5,6 +5,7 @@ flotsam_test(demLaw unit SOURCES unit/demLaw.cpp ${dem_support} LIBRARIES flotsa
 flotsam_test(demEngine unit SOURCES unit/demEngine.cpp ${dem_support} LIBRARIES flotsam_liggghts)
 flotsam_test(demState unit SOURCES unit/demState.cpp ${dem_support} LIBRARIES flotsam_liggghts RANKS 1 2)
 flotsam_test(demWalls unit SOURCES unit/demWalls.cpp ${dem_support} LIBRARIES flotsam_liggghts)
+flotsam_test(demThinTriangles unit SOURCES unit/demThinTriangles.cpp ${dem_support} LIBRARIES flotsam_liggghts)
 flotsam_test(demFacets unit SOURCES unit/demFacets.cpp ${dem_support} LIBRARIES flotsam_liggghts)
 flotsam_test(demMovers unit SOURCES unit/demMovers.cpp ${dem_support} LIBRARIES flotsam_liggghts)
 flotsam_test(demCorners unit SOURCES unit/demCorners.cpp ${dem_support} LIBRARIES flotsam_liggghts)

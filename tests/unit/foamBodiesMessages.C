@@ -3,9 +3,11 @@
 #include "demCoupling/foam/repeatedGroups.hpp"
 #include "demCoupling/foam/bodyChecks.H"
 #include "demCoupling/foam/continuedMotion.H"
+#include "geometry/thinTriangles.hpp"
 #include "support/bodiesScene.H"
 #include "support/near.hpp"
 #include "support/polyhedra.hpp"
+#include "support/prism.hpp"
 
 #include <doctest/doctest.h>
 
@@ -143,26 +145,45 @@ TEST_CASE("times of a motion that leave no time to move, or none before the end 
     CHECK(doubtfulStart(s.read(text("timeStart 20;")), 10).empty());    // has not moved yet
 }
 
-TEST_CASE("structures with needles that the contact engine does not take are refused with name, place and size, before it is there")
+TEST_CASE("structures with needles that the contact engine does not take are divided; those with too many are refused with name, number, place and size, before it is there")
 {
     BodiesScene s;
-    const auto message = [&](double width, const std::string& entry = "")
+    const auto write = [&](const TriSurface& surface)
     {
-        // a wedge of two triangles and two sides, as thin as wide
         if (s.halo.rank() == 0)
         {
             Foam::mkDir(s.foam.folder() + "/constant/triSurface");
-            TriSurface wedge;
-            wedge.points = {{0, 0, 0}, {1, 0, 0}, {1, width, 0}, {1, 0, 0.5}};
-            wedge.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-            writeStl(s.foam.folder() + "/constant/triSurface/wedge.stl", wedge);
+            writeStl(s.foam.folder() + "/constant/triSurface/sill.stl", surface);
         }
         MPI_Barrier(MPI_COMM_WORLD);
-        return s.message("structures { sill { shape { type stl; file \"wedge.stl\"; } position (0.3 0.3 0.3); " + entry + " } } " + bodies(bar + "position (0.5 0.8 0.2);"));
     };
-    CHECK(has(message(5e-4), "The surface of sill has a triangle 1 m long and 0.0005 m wide at (0.3 0.3 0.3)"));
-    CHECK(message(5e-4, "contact off;").empty());
-    CHECK(message(2e-3).empty());
+    const auto scene = [&](const std::string& entry = "")
+    { return "structures { sill { shape { type stl; file \"sill.stl\"; } position (0.3 0.3 0.3); " + entry + " } } " + bodies(bar + "position (0.5 0.8 0.2);"); };
+    const auto refused = [](const TriSurface& surface)
+    {
+        int count = 0;
+        for (const auto& t : surface.triangles) count += ThinTriangle(surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]).isRefused;
+        return count;
+    };
+    for (const double width : {5e-4, 2e-3})
+    {
+        // a wedge of two triangles and two sides, as thin as wide
+        TriSurface wedge;
+        wedge.points = {{0, 0, 0}, {1, 0, 0}, {1, width, 0}, {1, 0, 0.5}};
+        wedge.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+        write(wedge);
+        const BodiesInput input = s.read(scene());
+        CHECK((refused(wedge) > 0) == (width < 1e-3));
+        CHECK(refused(input.walls.back().surface) == 0);
+        CHECK((input.walls.back().surface.triangles.size() > 4) == (width < 1e-3));
+        CHECK(input.structures[0].solid.shape->surface(1).triangles.size() == 4); // the flow's
+    }
+    write(prism(circle(1000, 1.1e-5*1000/(2*M_PI)), Vec3(0, 0, 1)));
+    const std::string message = s.message(scene());
+    CHECK(has(message, "The surface of sill has 2000 triangles with angles below 0.001001 rad, which the contact engine does not take, the first 1 m long and 1.1"));
+    CHECK(has(message, "m wide at (0.30"));
+    CHECK(has(message, "more than 200000"));
+    CHECK(s.message(scene("contact off;")).empty());
 }
 
 TEST_CASE("tables of a motion need two rows of rising times")
