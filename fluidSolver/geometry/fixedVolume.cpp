@@ -25,16 +25,10 @@ struct Piece
     std::array<double, dim + 1> distance;
 };
 
-template <int dim>
-Piece<dim> makePiece(const Solid& solid, const std::array<Vec3, dim + 1>& x)
+double distanceTo(const Solid& solid, const Vec3& x)
 {
-    Piece<dim> piece{x, {}};
-    for (int a = 0; a <= dim; ++a)
-    {
-        const double d = solid.distance(x[a]);
-        piece.distance[a] = d != 0 ? d : -1e-300;
-    }
-    return piece;
+    const double d = solid.distance(x);
+    return d != 0 ? d : -1e-300;
 }
 
 template <int dim>
@@ -68,21 +62,30 @@ double solidShare(const Solid& solid, const Piece<dim>& piece, int level)
     }
     constexpr int nPoints = (dim + 1) * (dim + 2) / 2;
     std::array<Vec3, nPoints> x;
+    std::array<double, nPoints> distance; // of each point once, not in every child: it is what this costs
     std::copy(piece.x.begin(), piece.x.end(), x.begin());
+    std::copy(piece.distance.begin(), piece.distance.end(), distance.begin());
     int n = dim + 1;
     for (int a = 0; a <= dim; ++a)
-        for (int b = a + 1; b <= dim; ++b) x[n++] = 0.5 * (piece.x[a] + piece.x[b]);
+        for (int b = a + 1; b <= dim; ++b, ++n)
+        {
+            x[n] = 0.5 * (piece.x[a] + piece.x[b]);
+            distance[n] = distanceTo(solid, x[n]);
+        }
     double share = 0;
     constexpr int nChildren = 1 << dim;
     for (int k = 0; k < nChildren; ++k)
     {
-        std::array<Vec3, dim + 1> child;
+        Piece<dim> child;
         for (int a = 0; a <= dim; ++a)
         {
-            if constexpr (dim == 2) child[a] = x[trianglesOf[k][a]];
-            else child[a] = x[tetrahedraOf[k][a]];
+            int point;
+            if constexpr (dim == 2) point = trianglesOf[k][a];
+            else point = tetrahedraOf[k][a];
+            child.x[a] = x[point];
+            child.distance[a] = distance[point];
         }
-        share += solidShare<dim>(solid, makePiece<dim>(solid, child), level - 1) / nChildren;
+        share += solidShare<dim>(solid, child, level - 1) / nChildren;
     }
     return share;
 }
@@ -90,13 +93,14 @@ double solidShare(const Solid& solid, const Piece<dim>& piece, int level)
 template <int dim>
 double solidShareOf(const SimplexMesh& mesh, const Solid& solid, const int* nodes)
 {
-    std::array<Vec3, dim + 1> x;
+    Piece<dim> piece;
     for (int a = 0; a <= dim; ++a)
     {
         const auto y = mesh.spacePoint(nodes[a]);
-        x[a] = Vec3(y[0], y[1], y[2]);
+        piece.x[a] = Vec3(y[0], y[1], y[2]);
+        piece.distance[a] = distanceTo(solid, piece.x[a]);
     }
-    return solidShare<dim>(solid, makePiece<dim>(solid, x), nLevels);
+    return solidShare<dim>(solid, piece, nLevels);
 }
 
 } // namespace
