@@ -182,7 +182,7 @@ TEST_CASE("structures with needles that the contact engine does not take are div
     const std::string message = s.message(scene());
     CHECK(has(message, "The surface of sill has 2000 triangles with angles below 0.001001 rad, which the contact engine does not take, the first 1 m long and 1.1"));
     CHECK(has(message, "m wide at (0.30"));
-    CHECK(has(message, "more than 200000"));
+    CHECK(has(message, "more than 100000"));
     CHECK(s.message(scene("contact off;")).empty());
 }
 
