@@ -14,18 +14,18 @@ namespace
 [[noreturn]] void failDivision(const WallDefinition& wall, std::size_t count, const Foam::dictionary& dict)
 {
     const TriSurface& s = wall.surface;
-    const double extent = extentOf(s);
+    ThinTriangle widest(Vec3::Zero(), Vec3::Zero(), Vec3::Zero());
+    Vec3 place = Vec3::Zero();
     for (const auto& t : s.triangles)
     {
-        const Vec3& a = s.points[t[0]];
-        const ThinTriangle thin(a, s.points[t[1]], s.points[t[2]]);
-        if (!thin.isRefused || thin.isNegligible(extent)) continue;
-        failIn(dict, text("The surface of ", wall.name, " has ", count, " triangles with angles below ", needleAngle, " rad, which the contact engine does not take, the first ", thin.length, " m long and ",
-            thin.width, " m wide at (", a[0], ' ', a[1], ' ', a[2], "): divided across their length they would be more than ", mostWallPieces, ", the most of one surface.\n"
-            "    Remesh the STL file (surfaceMeshTriangulate, a CAD program), or divide it into several structures, make cells at a patch less flat, or let bodies not feel it "
-            "('contact off;' of a structure, wallPatches)."));
+        const ThinTriangle thin(s.points[t[0]], s.points[t[1]], s.points[t[2]]);
+        if (!thin.isRefused || thin.width < widest.width) continue;
+        widest = thin;
+        place = s.points[t[0]];
     }
-    failIn(dict, text("The surface of ", wall.name, " has triangles that cannot be divided."));
+    failIn(dict, text("The surface of ", wall.name, " has ", count, " triangles with angles below ", needleAngle, " rad, which the contact engine does not take, the widest ", widest.length, " m long and ",
+        widest.width, " m wide at (", place[0], ' ', place[1], ' ', place[2], "): divided across their length, those of all surfaces would be more than ", mostWallPieces, ".\n"
+        "    Remesh the STL file (surfaceMeshTriangulate, a CAD program), make cells at a patch less flat, or let bodies not feel it ('contact off;' of a structure, wallPatches)."));
 }
 
 } // namespace
@@ -37,8 +37,8 @@ void divideWallTriangles(BodiesInput& input, const Foam::dictionary& dict)
     for (WallDefinition& wall : input.walls)
     {
         if (wall.kind != WallDefinition::Kind::Surface) continue;
-        DividedSurface divided = divideThinTriangles(wall.surface, mostWallPieces);
-        if (divided.pieces > mostWallPieces) failDivision(wall, divided.divided, dict);
+        DividedSurface divided = divideThinTriangles(wall.surface, mostWallPieces - pieces);
+        if (divided.pieces > mostWallPieces - pieces) failDivision(wall, divided.divided, dict);
         if (divided.divided == 0 && divided.leftOut == 0) continue;
         wall.surface = std::move(divided.surface);
         if (divided.divided == 0) continue;
