@@ -62,6 +62,19 @@ double farthest(const TriSurface& from, const TriSurface& to, int parts)
     return largest;
 }
 
+/// With points within 1e-9 as one.
+TriSurface merged(TriSurface s)
+{
+    std::map<std::array<long, 3>, int> numbers;
+    for (auto& t : s.triangles)
+        for (int& i : t)
+        {
+            const Vec3 x = (s.points[i]*1e9).array().round();
+            i = numbers.emplace(std::array<long, 3>{long(x[0]), long(x[1]), long(x[2])}, i).first->second;
+        }
+    return s;
+}
+
 bool isClosed(const TriSurface& s)
 {
     std::map<std::pair<int, int>, int> uses;
@@ -145,6 +158,18 @@ TEST_CASE("plane strips of two triangles, straight, tapered and cut askew, are d
     }
 }
 
+TEST_CASE("two needles that lie on each other are no strip")
+{
+    TriSurface s;
+    s.points = {{0, 0, 0}, {1, 0, 0}, {1, 2e-4, 0}, {0, -2e-4, 0}};
+    s.triangles = {{0, 1, 2}, {0, 2, 3}};
+    const DividedSurface d = divideThinTriangles(s, most);
+    CHECK(needlesOf(d.surface) == 0);
+    CHECK(farthest(s, d.surface, 40) < 1e-10);
+    CHECK(areaOf(d.surface) > areaOf(s));
+    CHECK(areaOf(d.surface) < areaOf(s) + 2*narrowestWallTriangle);
+}
+
 TEST_CASE("prisms with sides of 1e3 to 5e4 times their width stay closed and the same, without neighbours that are divided, too")
 {
     for (int n : {4, 24, 90})
@@ -156,6 +181,8 @@ TEST_CASE("prisms with sides of 1e3 to 5e4 times their width stay closed and the
             const DividedSurface d = divideThinTriangles(s, most);
             CHECK(d.divided == std::size_t(2*n));
             CHECK(needlesOf(d.surface) == 0);
+            CHECK(isClosed(s));
+            CHECK(isClosed(merged(d.surface))); // cuts of neighbours meet: no point lies within an edge
             CHECK(d.surface.triangles.size() == s.triangles.size() - 2*n + d.pieces);
             CHECK(areaOf(d.surface) == near(areaOf(s), 1e-8));
             CHECK(enclosedMoments(d.surface).volume == near(enclosedMoments(s).volume, 1e-8));
