@@ -23,7 +23,7 @@ namespace
 
 constexpr double reach = 0.85/needleAngle;  // of a piece, over the smaller of its widths
 constexpr double largestSlant = 1;          // of the ends of a strip, over their width
-constexpr double roundOff = 1e-7;           // of points of STL files, over the extent
+constexpr double roundOff = 3e-7;           // of points of binary STL files, over the extent
 
 /// A triangle seen over its longest edge, from a to b; `share`: of its length, where the foot of c is.
 struct OnEdge
