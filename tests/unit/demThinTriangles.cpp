@@ -118,3 +118,40 @@ TEST_CASE("bodies that slide and roll over needles and caps of a plate go as on 
         CHECK(faster < 1e-9);
     }
 }
+
+TEST_CASE("surfaces with needles of all kinds are accepted, of 2 cm as of 300 m, and those of fans")
+{
+    Random random(5);
+    int thin = 0;
+    const auto isAccepted = [&](const TriSurface& surface)
+    {
+        const DividedSurface d = divideThinTriangles(surface, 200000);
+        thin += int(d.divided);
+        DemSetup setup = scene({ball(0.01, 0.05, Vec3(0, 0, 5))}, {block(Vec3(-1, -1, -1), Vec3(1, 1, 0))});
+        setup.walls[0].surface = d.surface;
+        setup.box = {Vec3(-500, -500, -500), Vec3(500, 500, 500)};
+        try
+        {
+            LiggghtsEngine engine(setup);
+        }
+        catch (const DemError& e)
+        {
+            MESSAGE(e.what());
+            return false;
+        }
+        return true;
+    };
+    for (const double scale : {0.006, 1.0, 100.0})
+        for (int i = 0; i < 15; ++i)
+        {
+            CAPTURE(scale);
+            CAPTURE(i);
+            TriSurface s = collapsed(prism(circle(7, 1), Vec3(0.1, 0.2, 3)), random);
+            for (Vec3& x : s.points) x *= scale;
+            CHECK(isAccepted(s));
+        }
+    CHECK(thin > 80);
+    std::vector<Vec3> sector{Vec3::Zero()};
+    for (int i = 0; i <= 200; ++i) sector.emplace_back(0.5*std::cos(5e-4*i), 0.5*std::sin(5e-4*i), 0);
+    CHECK(isAccepted(prism(sector, Vec3(0, 0, 0.1))));
+}
