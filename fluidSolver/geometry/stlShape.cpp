@@ -142,12 +142,19 @@ void StlShape::grow(int branch, int first, int last, std::vector<Triangle>& tria
         tree_[branch].count = last - first;
         return;
     }
+    // where the centres are far apart: the box of long triangles side by side is longest along them, where they cannot be told apart
+    const auto centre = [](const Triangle& t) -> Vec3 { return t.corner[0] + t.corner[1] + t.corner[2]; };
+    Vec3 least = Vec3::Constant(1e300), most = Vec3::Constant(-1e300);
+    for (int i = first; i < last; ++i)
+    {
+        least = least.cwiseMin(centre(triangles[i]));
+        most = most.cwiseMax(centre(triangles[i]));
+    }
     int d = 0;
-    (upper - lower).maxCoeff(&d);
+    (most - least).maxCoeff(&d);
     const int middle = (first + last) / 2;
-    auto centre = [d](const Triangle& t) { return t.corner[0][d] + t.corner[1][d] + t.corner[2][d]; };
     std::nth_element(triangles.begin() + first, triangles.begin() + middle, triangles.begin() + last,
-                     [&](const Triangle& a, const Triangle& b) { return centre(a) < centre(b); });
+                     [&](const Triangle& a, const Triangle& b) { return centre(a)[d] < centre(b)[d]; });
     const int child = static_cast<int>(tree_.size());
     tree_[branch].child = child;
     tree_.resize(tree_.size() + 2);
