@@ -3,7 +3,9 @@
 #include "geometry/triSurface.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 #include <string>
 
@@ -174,21 +176,51 @@ std::vector<Candidate> candidates(const Shape& shape, const std::vector<SurfaceP
     return result;
 }
 
+/// Spheres at least a distance apart, in boxes of that length: of tens of thousands only those in the boxes around are compared.
+class ThinnedSpheres
+{
+public:
+    explicit ThinnedSpheres(double distance) : distance_(distance) {}
+
+    void addIfApart(const SurfaceSphere& sphere)
+    {
+        const std::array<long, 3> box = boxOf(sphere.centre);
+        for (long i = -1; i <= 1; ++i)
+            for (long j = -1; j <= 1; ++j)
+                for (long k = -1; k <= 1; ++k)
+                    if (isNearOne({box[0] + i, box[1] + j, box[2] + k}, sphere)) return;
+        inBox_[box].push_back(static_cast<int>(spheres_.size()));
+        spheres_.push_back(sphere);
+    }
+    Spheres take() { return std::move(spheres_); }
+
+private:
+    std::array<long, 3> boxOf(const Vec3& x) const
+    {
+        const auto place = [&](int d) { return static_cast<long>(std::floor(x[d] / distance_)); };
+        return {place(0), place(1), place(2)};
+    }
+    bool isNearOne(const std::array<long, 3>& box, const SurfaceSphere& sphere) const
+    {
+        const auto found = inBox_.find(box);
+        if (found == inBox_.end()) return false;
+        return std::any_of(found->second.begin(), found->second.end(), [&](int other) { return (spheres_[other].centre - sphere.centre).squaredNorm() < distance_ * distance_; });
+    }
+
+    double distance_;
+    Spheres spheres_;
+    std::map<std::array<long, 3>, std::vector<int>> inBox_;
+};
+
 /// Any shape: balls under a dense sampling of the surface, thinned in order. The thinning distance makes neighbours
 /// `spacing` apart at most in a triangular pattern.
 Spheres sampledSpheres(const Shape& shape, double radius, double spacing)
 {
-    const double thinning = 0.6 * spacing;
     const std::vector<SurfacePoint> points = samplePoints(shape.surface(0.5 * spacing), 0.25 * spacing);
     const double thickest = largestBallRadius(shape, points, radius);
-    Spheres spheres;
-    for (const Candidate& c : candidates(shape, points, std::min(radius, thickest * (1 - 1e-6))))
-    {
-        const bool isNew = std::none_of(spheres.begin(), spheres.end(), [&](const SurfaceSphere& other)
-            { return (other.centre - c.sphere.centre).squaredNorm() < thinning * thinning; });
-        if (isNew) spheres.push_back(c.sphere);
-    }
-    return spheres;
+    ThinnedSpheres spheres(0.6 * spacing);
+    for (const Candidate& c : candidates(shape, points, std::min(radius, thickest * (1 - 1e-6)))) spheres.addIfApart(c.sphere);
+    return spheres.take();
 }
 
 } // namespace
