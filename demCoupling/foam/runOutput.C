@@ -103,7 +103,11 @@ void RunOutput::record(const CoupledStep& step, const StepResult& result, const 
     if (step.coupling())
     {
         if (result.contactMismatch > 0.1) ++unfinishedContacts_;
-        largestOverlap_ = std::max(largestOverlap_, step.coupling()->largestOverlap());
+        if (step.coupling()->largestOverlap() > largestOverlap_)
+        {
+            largestOverlap_ = step.coupling()->largestOverlap();
+            deepestPressedBy_ = step.coupling()->pressingMover();
+        }
     }
     if (step.cover()) sharedElements_ = std::max(sharedElements_, step.cover()->nSharedElements);
     const std::vector<BodyRecord> records = step.records();
@@ -159,7 +163,7 @@ std::string RunOutput::overlapAdvice(const BodyCoupling* bodies) const
     const std::string mover = bodies->pressingMover().empty() ? clampedBy_ : bodies->pressingMover();
     return text("the contact surfaces of ", bodies->deepestPair(), " overlap by ", bodies->largestOverlap(), " m, ", std::round(100*bodies->largestOverlap()/thinnestBody_),
         " % of the thinnest body. ", mover.empty() ? "Contact is too soft: give constant/bodies more `stiffness`"
-        : "Structure " + mover + " moves as prescribed whatever is in its way, and presses them together: let it stop before, by timeEnd of its motion, move it where"
+        : "Structure " + mover + " moves as prescribed whatever is in its way, and presses them together: let it stop before (timeEnd of its motion, or a last row of its table), move it where"
             " it leaves room, or take out of its way what it clamps");
 }
 
@@ -206,6 +210,7 @@ void RunOutput::end(const CoupledStep& step)
         summary.bodiesAwaited = bodies->count(Presence::Awaited);
     }
     summary.largestOverlap = largestOverlap_;
+    summary.overlapPressedBy = deepestPressedBy_;
     summary.thinnestBody = thinnestBody_;
     summary.steps = steps_ - firstStep_;
     summary.repeatedSteps = rejected_;

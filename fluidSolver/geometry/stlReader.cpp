@@ -4,6 +4,7 @@
 #include "geometry/triSurface.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -150,24 +151,72 @@ TriSurface merge(const Corners& corners)
     return s;
 }
 
+/// How often each directed edge is used.
+using EdgeUses = std::map<std::pair<int, int>, int>;
+
+int count(const EdgeUses& uses, int a, int b)
+{
+    const auto found = uses.find({a, b});
+    return found == uses.end() ? 0 : found->second;
+}
+
+/// Of an open edge: another one that runs beside it the other way closes it, where their points were written as different ones.
+std::string openEdgeCure(const TriSurface& s, const EdgeUses& uses, int a, int b)
+{
+    constexpr double beside = 0.01; // of the edge's length
+    double apart = beside * (s.points[b] - s.points[a]).norm();
+    bool isFound = false;
+    for (const auto& [edge, n] : uses)
+    {
+        const auto [c, d] = edge;
+        if ((c == a && d == b) || count(uses, d, c) > 0) continue;
+        const double gap = std::max((s.points[c] - s.points[b]).norm(), (s.points[d] - s.points[a]).norm());
+        if (gap > apart) continue;
+        apart = gap;
+        isFound = true;
+    }
+    if (!isFound) return "; a body needs a closed surface: surfaceCheck finds its holes, close them in the CAD program (terrain needs sides and a bottom)";
+    std::ostringstream cure;
+    cure << "; another open edge is beside it, " << apart << " m away, and would close it: surfacePointMerge makes points that are nearer than a given distance one";
+    return cure.str();
+}
+
+bool hasTwin(const TriSurface& s, std::array<int, 3> t)
+{
+    std::sort(t.begin(), t.end());
+    return std::count_if(s.triangles.begin(), s.triangles.end(), [&](std::array<int, 3> other)
+    {
+        std::sort(other.begin(), other.end());
+        return other == t;
+    }) > 1;
+}
+
+/// Of triangles at an edge with more than two.
+std::string sharedEdgeCure(const TriSurface& s, int a, int b)
+{
+    for (const auto& t : s.triangles)
+        if (std::count(t.begin(), t.end(), a) + std::count(t.begin(), t.end(), b) == 2 && hasTwin(s, t))
+            return "; one of them is there twice: surfaceClean takes the second one out";
+    return "; parts that touch along an edge: unite them in the CAD program (boolean union), or write each to a file of its own and give a 'union' of these";
+}
+
 /// Every directed edge once and its reverse once.
 void requireClosed(const std::string& file, const TriSurface& s)
 {
-    std::map<std::pair<int, int>, int> uses;
+    EdgeUses uses;
     for (const auto& t : s.triangles)
         for (int k = 0; k < 3; ++k) ++uses[{t[k], t[(k + 1) % 3]}];
-    for (const auto& t : s.triangles)
-        for (int k = 0; k < 3; ++k)
-        {
-            const int a = t[k], b = t[(k + 1) % 3];
-            const int forward = uses[{a, b}], backward = uses.count({b, a}) ? uses[{b, a}] : 0;
-            if (forward == 1 && backward == 1) continue;
-            const std::string edge = "the edge " + text(s.points[a]) + " - " + text(s.points[b]);
-            const std::string cure = "; a body needs a closed surface: check and repair it (surfaceCheck, surfaceOrient)";
-            if (forward + backward == 1) fail(file, "the surface is open: " + edge + " belongs to one triangle only" + cure);
-            if (forward + backward == 2) fail(file, edge + " lies between triangles of opposite orientation" + cure);
-            fail(file, edge + " belongs to " + std::to_string(forward + backward) + " triangles, wanted 2" + cure);
-        }
+    for (const auto& [directed, forward] : uses)
+    {
+        const auto [a, b] = directed;
+        const int backward = count(uses, b, a);
+        if (forward == 1 && backward == 1) continue;
+        const std::string edge = "the edge " + text(s.points[a]) + " - " + text(s.points[b]);
+        if (forward + backward == 1) fail(file, "the surface is open: " + edge + " belongs to one triangle only" + openEdgeCure(s, uses, a, b));
+        if (forward + backward == 2)
+            fail(file, edge + " lies between triangles of opposite orientation; a body needs a surface that is outwards all over: surfaceOrient turns them");
+        fail(file, edge + " belongs to " + std::to_string(forward + backward) + " triangles, wanted 2" + sharedEdgeCure(s, a, b));
+    }
 }
 
 } // namespace

@@ -258,8 +258,9 @@ std::string RunLog::summary(const RunSummary& s)
     if (s.bodiesLeft > 0) text += format("\n  %d of %d bodies have left the mesh\n", s.bodiesLeft, s.bodies);
     if (s.largestOverlap > RunLog::deepOverlap * s.thinnestBody)
     {
-        text += format("\n  contact is too soft: contact surfaces overlapped by up to %.2g m, %.0f %% of the thinnest body. Give constant/bodies more `stiffness`\n",
-            s.largestOverlap, 100 * s.largestOverlap / s.thinnestBody);
+        const std::string cause = s.overlapPressedBy.empty() ? "Contact is too soft: give constant/bodies more `stiffness`"
+                                                             : "Structure " + s.overlapPressedBy + " pressed them together: it moves as prescribed whatever is in its way";
+        text += format("\n  contact surfaces overlapped by up to %.2g m, %.0f %% of the thinnest body. %s\n", s.largestOverlap, 100 * s.largestOverlap / s.thinnestBody, cause.c_str());
     }
     text += "\n  liquid volume [m^3]\n";
     text += format("  at the start %.8g, in %.8g, out %.8g, at the end %.8g\n", s.mass.initial, s.mass.inflow, s.mass.outflow,

@@ -121,6 +121,7 @@ struct RunSummary
     int bodies = 0, bodiesLeft = 0;                         ///< bodiesLeft: that have left the mesh since the start
     int bodiesAwaited = 0;                                  ///< that have not come in yet
     double largestOverlap = 0, thinnestBody = 0;            ///< of contact surfaces since the start; smallest extent of a body [m]
+    std::string overlapPressedBy;                           ///< structure whose prescribed motion made that overlap; empty: none
     std::vector<std::pair<std::string, long long>> anomalies; ///< counted: "clipped alpha", "rejected steps", ...
     MassBalance mass;
     double unbalancedVolume = 0;                            ///< swept in basins without a prescribed pressure beyond what these can give [m^3]

@@ -167,7 +167,11 @@ TEST_CASE("the summary names phases, anomalies, mass balance and forces")
     s.structures = {{"pipe1", {1, 2, 3}, {4, 5, 6}, 7, 8, 9}};
     const std::string text = RunLog::summary(s);
     MESSAGE(text);
-    for (const char* part : {"100 steps, 3 repeated", "75.0", "6.0000", "clipped alpha", "4 of 12 bodies have not come in", "3 of 12 bodies have left", "0.03 m, 15 % of the thinnest body", "1e-09", "0.0321", "pipe1"}) CHECK(contains(text, part));
+    for (const char* part : {"100 steps, 3 repeated", "75.0", "6.0000", "clipped alpha", "4 of 12 bodies have not come in", "3 of 12 bodies have left", "0.03 m, 15 % of the thinnest body. Contact is too soft", "1e-09", "0.0321", "pipe1"}) CHECK(contains(text, part));
+    s.overlapPressedBy = "gate"; // more stiffness would be no help
+    const std::string pressed = RunLog::summary(s);
+    CHECK(contains(pressed, "15 % of the thinnest body. Structure gate pressed them together"));
+    CHECK(!contains(pressed, "too soft"));
     CHECK(s.mass.error() == near(1e-9, 3e-7));
     CHECK(MassBalance{2, 0.5, 1, 1.501}.relativeError() == near(0.0005, 1e-9));     // over the start
     CHECK(MassBalance{0, 2, 1, 1.01}.relativeError() == near(0.01/1.01, 1e-9));     // a channel that begins dry

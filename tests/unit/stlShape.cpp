@@ -213,16 +213,29 @@ TEST_CASE("surfaces that enclose nothing are refused, naming the file and the ed
     writeStl(file.name, s);
     CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains(file.name.c_str()), std::runtime_error);
     CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("the surface is open: the edge ("), std::runtime_error);
+    CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("close them in the CAD program"), std::runtime_error);
 
     s = makeBox(Vec3::Zero(), {2, 2, 2})->surface(1);
     std::swap(s.triangles[3][0], s.triangles[3][1]);
     writeStl(file.name, s);
     CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("opposite orientation"), std::runtime_error);
+    CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("surfaceOrient"), std::runtime_error);
 
     s = makeBox(Vec3::Zero(), {2, 2, 2})->surface(1);
     s.triangles.push_back(s.triangles[0]);
     writeStl(file.name, s);
-    CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("wanted 2"), std::runtime_error);
+    CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("wanted 2; one of them is there twice: surfaceClean"), std::runtime_error);
+
+    // a corner that one triangle has elsewhere by more than what makes points one
+    s = makeBox(Vec3::Zero(), {2, 2, 2})->surface(4);
+    s.points.push_back(s.points[s.triangles[0][0]] + Vec3(1e-5, 0, 0));
+    s.triangles[0][0] = static_cast<int>(s.points.size()) - 1;
+    writeStl(file.name, s);
+    CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("m away, and would close it: surfacePointMerge"), std::runtime_error);
+
+    // two boxes with a common edge
+    writeStl(file.name, joined({boxFrom({-1, -1, -1}, {0, 1, 0}), boxFrom({0, -1, 0}, {1, 1, 1})}));
+    CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("4 triangles, wanted 2; parts that touch along an edge"), std::runtime_error);
 
     std::ofstream(file.name) << "something else";
     CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("neither binary"), std::runtime_error);
