@@ -14,7 +14,8 @@ namespace flotsam
 namespace
 {
 
-const char *const groupName = "gone", *const moverGroup = "movers", *const cornerGroup = "corners";
+// Two groups for spheres that no pair is listed of, and for those (all) that it would be with: LIGGGHTS asks every exclusion of every pair of spheres in neighbouring bins, which is most of what its lists cost.
+const char *const singleGroup = "single", *const anyGroup = "any", *const moverGroup = "movers";
 constexpr int everything = 1; // bit of LIGGGHTS' group "all"
 
 /// Numbers of a Halton sequence, 0..1: evenly spread, however many are taken.
@@ -65,16 +66,10 @@ std::vector<BodyDefinition> placedAtStart(const DemSetup& setup)
 
 void excludePairs(LiggghtsModel& model)
 {
+    for (const std::string name : {singleGroup, anyGroup, moverGroup}) model.instance.command("group " + name + " id 0"); // of no sphere: they count from 1
     const auto exclude = [&](const std::string& a, const std::string& b) { model.instance.command("neigh_modify exclude group " + a + " " + b); };
-    for (const std::string name : {groupName, moverGroup, cornerGroup})
-    {
-        model.instance.command("group " + name + " id 0"); // of no sphere: they count from 1
-        exclude(groupName, name);
-    }
-    exclude(groupName, "all");
+    exclude(singleGroup, anyGroup);
     exclude(moverGroup, moverGroup);
-    exclude(cornerGroup, "all");
-    exclude(cornerGroup, moverGroup);
 }
 
 void setGone(LiggghtsModel& model, const std::vector<char>& isGone)
@@ -102,13 +97,13 @@ void markGone(LiggghtsModel& model, const std::vector<char>& isGone)
 {
     const LAMMPS_NS::LAMMPS& dem = model.instance.lammps();
     const auto bitOf = [&](const char* name) { return dem.group->bitmask[dem.group->find(name)]; };
-    const int gone = bitOf(groupName), mover = bitOf(moverGroup), corner = bitOf(cornerGroup);
+    const int any = bitOf(anyGroup), mover = any | bitOf(moverGroup), single = any | bitOf(singleGroup);
     for (size_t b = 0; b < isGone.size(); ++b)
     {
-        const int bit = isGone[b] ? gone : static_cast<int>(b) < model.firstMover ? everything : mover;
-        std::fill(dem.atom->mask + model.firstSphere[b], dem.atom->mask + model.firstCorner[b], bit);
+        const int body = isGone[b] ? single : static_cast<int>(b) < model.firstMover ? any | everything : mover;
+        std::fill(dem.atom->mask + model.firstSphere[b], dem.atom->mask + model.firstCorner[b], body);
         for (int i = model.firstCorner[b]; i < model.firstSphere[b + 1]; ++i)
-            dem.atom->mask[i] = isGone[b] ? gone : model.isRetreated[static_cast<size_t>(i)] ? corner : corner | everything;
+            dem.atom->mask[i] = isGone[b] || model.isRetreated[static_cast<size_t>(i)] ? single : single | everything;
     }
     model.isGone = isGone;
 }
