@@ -29,7 +29,19 @@ template<class Type>
 TimeFunction<Type> timeFunction(const Foam::dictionary& dict, const char* keyword)
 {
     if (!dict.found(keyword)) failIn(dict, text("Entry '", keyword, "' is missing: give a constant, or a Function1 (table, csv, sine, ...)."));
-    return TimeFunction<Type>(Foam::Function1<Type>::New(keyword, dict).ptr());
+    const bool didThrow = Foam::FatalError.throwExceptions();
+    TimeFunction<Type> function;
+    std::string mistake;
+    try { function.reset(Foam::Function1<Type>::New(keyword, dict).ptr()); }
+    catch (const Foam::IOerror&)
+    {
+        Foam::FatalError.throwExceptions(didThrow);
+        throw; // names file and entry
+    }
+    catch (const Foam::error& error) { mistake = error.message(); } // of a table whose times do not rise, for instance, says neither
+    Foam::FatalError.throwExceptions(didThrow);
+    if (!mistake.empty()) failIn(dict, text("Entry '", keyword, "' is no function of time: ", mistake, "\n    Give a constant, or a Function1 (table with rising times, csv, sine, ...)."));
+    return function;
 }
 
 [[noreturn]] void failNotAvailable(const ConditionInput& in, const std::string& type, const std::vector<std::string>& known)

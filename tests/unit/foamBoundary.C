@@ -109,6 +109,9 @@ TEST_CASE("time functions")
     BoundaryScene s(Edits{{"0/U", inletU, "type uniformFixedValue; uniformValue table ((0 (0 0 0)) (2 (4 0 0))); value uniform (0 0 0);"}});
     const auto u = s.values("inlet", 0.5).velocity;
     for (std::size_t i = 0; i < u.size(); i += 2) CHECK(u[i] == near(1, 1e-14));
+    if (!isSerial()) return;
+    const std::string unordered = refused("0/U", inletU, "type uniformFixedValue; uniformValue table ((0 (0 0 0)) (2 (4 0 0)) (1 (0 0 0))); value uniform (0 0 0);");
+    CHECK(has(unordered, "Entry 'uniformValue' is no function of time: out-of-order value: 1"));
 }
 
 TEST_CASE("prghPressure and prghTotalPressure give the full pressure")
