@@ -61,7 +61,9 @@ void warnOutside(const BodiesInput& input)
         const auto [lower, upper] = boundsOf(s);
         if (s.motion || boxesMeet({lower, upper}, input.box)) continue;
         Foam::Info<< "Warning: structure " << s.solid.name.c_str() << " lies outside of the mesh, it does nothing: from "
-            << Foam::vector(lower[0], lower[1], lower[2]) << " to " << Foam::vector(upper[0], upper[1], upper[2]) << Foam::nl;
+            << Foam::vector(lower[0], lower[1], lower[2]) << " to " << Foam::vector(upper[0], upper[1], upper[2]);
+        if ((upper - lower).maxCoeff() > (input.box[1] - input.box[0]).maxCoeff()) Foam::Info<< ". It is longer than the mesh. Lengths are in m: an STL file in mm needs 'scale 0.001'";
+        Foam::Info<< Foam::nl;
     }
 }
 

@@ -175,20 +175,21 @@ std::string openEdgeCure(const TriSurface& s, const EdgeUses& uses, int a, int b
         apart = gap;
         isFound = true;
     }
-    if (!isFound) return "; a body needs a closed surface: surfaceCheck finds its holes, close them in the CAD program (terrain needs sides and a bottom)";
+    if (!isFound) return "; a body needs a closed surface: surfaceCheck finds its holes, also where a point lies in the middle of an edge; close them in the CAD program (terrain needs sides and a bottom)";
     std::ostringstream cure;
     cure << "; another open edge is beside it, " << apart << " m away, and would close it: surfacePointMerge makes points that are nearer than a given distance one";
     return cure.str();
 }
 
+/// The same corners in the same sense; the other way round it is the face between two parts.
 bool hasTwin(const TriSurface& s, std::array<int, 3> t)
 {
-    std::sort(t.begin(), t.end());
-    return std::count_if(s.triangles.begin(), s.triangles.end(), [&](std::array<int, 3> other)
+    const auto turned = [](std::array<int, 3> corners)
     {
-        std::sort(other.begin(), other.end());
-        return other == t;
-    }) > 1;
+        std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+        return corners;
+    };
+    return std::count_if(s.triangles.begin(), s.triangles.end(), [&](const std::array<int, 3>& other) { return turned(other) == turned(t); }) > 1;
 }
 
 /// Of triangles at an edge with more than two.
@@ -197,7 +198,7 @@ std::string sharedEdgeCure(const TriSurface& s, int a, int b)
     for (const auto& t : s.triangles)
         if (std::count(t.begin(), t.end(), a) + std::count(t.begin(), t.end(), b) == 2 && hasTwin(s, t))
             return "; one of them is there twice: surfaceClean takes the second one out";
-    return "; parts that touch along an edge: unite them in the CAD program (boolean union), or write each to a file of its own and give a 'union' of these";
+    return "; parts with a common edge or face: unite them in the CAD program (boolean union), or write each to a file of its own and give a 'union' of these";
 }
 
 /// Every directed edge once and its reverse once.

@@ -119,6 +119,9 @@ rm -rf misnamed && cp -r good misnamed && mv misnamed/constant/bodies misnamed/c
 rm -rf beside && cp -r good beside
 echo 'structures { pier { shape { type cylinder; end1 (5 0 0); end2 (5 0 0.05); radius 0.01; } } }' >> beside/constant/bodies
 (cd beside && quietly flotsamFoam -dry-run && grep -q 'structure pier lies outside of the mesh' log.flotsamFoam) || fail "a structure beside the mesh is not mentioned"
+grep -q 'structure pier lies outside of the mesh.*scale' beside/log.flotsamFoam && fail "a small structure beside the mesh is taken for one in mm"
+sed -i 's/end1 (5 0 0); end2 (5 0 0.05)/end1 (500 0 0); end2 (500 0 50)/' beside/constant/bodies
+(cd beside && quietly flotsamFoam -dry-run && grep -q "structure pier lies outside of the mesh.* longer than the mesh.* 'scale 0.001'" log.flotsamFoam) || fail "a structure in mm beside the mesh: no word of its scale"
 rm -rf shallow && cp -r good shallow
 echo 'structures { pier { shape { type box; size (0.02 0.05 0.05); } position (0.07 -0.05 0); } }' >> shallow/constant/bodies
 (cd shallow && quietly flotsamFoam -dry-run && grep -q 'Warning: 2D mesh: structures that are not the same from its front to its back, z = 0 to 0.05 m: pier\.' log.flotsamFoam) || fail "a structure that does not reach through a 2D mesh is not mentioned"

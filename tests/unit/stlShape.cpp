@@ -233,9 +233,11 @@ TEST_CASE("surfaces that enclose nothing are refused, naming the file and the ed
     writeStl(file.name, s);
     CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("m away, and would close it: surfacePointMerge"), std::runtime_error);
 
-    // two boxes with a common edge
+    // two boxes with a common edge, with a common face
     writeStl(file.name, joined({boxFrom({-1, -1, -1}, {0, 1, 0}), boxFrom({0, -1, 0}, {1, 1, 1})}));
-    CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("4 triangles, wanted 2; parts that touch along an edge"), std::runtime_error);
+    CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("4 triangles, wanted 2; parts with a common edge or face: unite"), std::runtime_error);
+    writeStl(file.name, joined({boxFrom({-1, -1, -1}, {0, 1, 1}), boxFrom({0, -1, -1}, {1, 1, 1})}));
+    CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("parts with a common edge or face: unite"), std::runtime_error);
 
     std::ofstream(file.name) << "something else";
     CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("neither binary"), std::runtime_error);
