@@ -158,7 +158,7 @@ TEST_CASE("one place serves many: each waits until it is free; one whose place i
     CHECK(run->records()[3].isAwaited);
     REQUIRE(waiting.size() == 3);
     CHECK(waiting[0] == "body second is to come in, but there is body 'first' at its place: it waits");
-    CHECK(waiting[1] == "body sunk is to come in, but there is liquid (alpha up to 1) in the elements at its place: it waits");
+    CHECK(waiting[1] == "body sunk is to come in, but there is liquid (alpha up to 1) in the elements at its place: it waits until there is none. Give it a place two elements above the highest level (constant/bodies)");
     CHECK(run->fluid().liquidVolume() == near(liquid, 2e-14));
 
     const auto again = makeRun(tank, dem);
