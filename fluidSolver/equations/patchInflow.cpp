@@ -115,4 +115,33 @@ std::vector<double> outsideLevels(const SimplexMesh& mesh, const Halo& halo, con
     return levels;
 }
 
+GasPressures gasPressures(const SimplexMesh& mesh, const Halo& halo, const std::vector<BoundaryPatch>& patches, const FluidProperties& fluid, double time)
+{
+    const auto& g = fluid.gravity;
+    const double strength = std::hypot(g[0], g[1], g[2]), weight = fluid.rhoGas*strength;
+    constexpr double far = std::numeric_limits<double>::max();
+    double least = far, most = -far, bottom = far, top = -far;
+    for (const BoundaryPatch& patch : patches)
+    {
+        for (int node : patch.nodes)
+        {
+            bottom = std::min(bottom, heightOf(mesh, node, g, strength));
+            top = std::max(top, heightOf(mesh, node, g, strength));
+        }
+        if (!givesPressure(patch)) continue;
+        const std::vector<double> gas = pressuresIn(0, mesh, patch, time);
+        for (std::size_t k = 0; k < gas.size(); ++k)
+        {
+            const double overRest = gas[k] + weight*heightOf(mesh, patch.nodes[k], g, strength);
+            least = std::min(least, overRest);
+            most = std::max(most, overRest);
+        }
+    }
+    least = halo.min(least);
+    most = halo.max(most);
+    bottom = halo.min(bottom);
+    top = halo.max(top);
+    return {most > least ? most - least : 0, weight*(top - bottom)};
+}
+
 } // namespace flotsam

@@ -26,4 +26,9 @@ PatchInflow prescribedInflow(const SimplexMesh& mesh, const Halo& halo, const Bo
 /// outside, or the velocity is prescribed. The gas outside of all of them is taken to have the lowest of their pressures. Two fluids with gravity. Collective.
 std::vector<double> outsideLevels(const SimplexMesh& mesh, const Halo& halo, const std::vector<BoundaryPatch>& patches, const FluidProperties& fluid, double time);
 
+/// How much the pressures that patches give to gas differ from those of gas at rest [Pa]; 0 where fewer than two nodes give one. The second: as much as a patch with one pressure all over
+/// (a free overfall) makes in a mesh of this height. Two fluids with gravity. Collective.
+struct GasPressures { double spread = 0, ofHeight = 0; };
+GasPressures gasPressures(const SimplexMesh& mesh, const Halo& halo, const std::vector<BoundaryPatch>& patches, const FluidProperties& fluid, double time);
+
 } // namespace flotsam

@@ -12,6 +12,7 @@ namespace flotsam
 namespace
 {
 
+constexpr double muchWind = 2;      // of the pressure difference that a free overfall makes
 constexpr double muchGas = 0.1;     // of what enters: where a surface is smeared over elements some enters below it
 
 void say(const std::string& line) { Foam::Info << line.c_str() << Foam::nl; }
@@ -31,6 +32,13 @@ void reportLevel(const CaseControls& controls, const BoundaryPatch& patch, doubl
 {
     say(text("Patch ", patch.name, ": ", std::isinf(level) ? text("no ", controls.liquidName, " outside")
                                                            : text("pressure of ", controls.liquidName, " outside up to a height of ", level, " m")));
+}
+
+void reportWind(const CaseControls& controls, const GasPressures& gas)
+{
+    if (gas.spread <= muchWind*gas.ofHeight || controls.fluid.rhoGas <= 0) return;
+    say(text("Warning: the pressures that patches give to gas differ by ", gas.spread, " Pa from those of gas at rest: it will blow with up to ", std::sqrt(2*gas.spread/controls.fluid.rhoGas),
+        " m/s. Where that is not meant: constant/hRef is a height within the mesh (patches with p_rgh and with prghTotalPressure, a full pressure, fit together only then), and p0 is the same everywhere"));
 }
 
 } // namespace
@@ -53,6 +61,7 @@ void reportPatches(const CaseControls& controls, const MeshAdapter& adapter, con
         const std::vector<double> levels = outsideLevels(mesh, halo, patches, controls.fluid, time);
         for (std::size_t p = 0; p < patches.size(); ++p)
             if (patches[p].pressure != BoundaryPatch::Pressure::Natural) reportLevel(controls, patches[p], levels[p]);
+        reportWind(controls, gasPressures(mesh, halo, patches, controls.fluid, time));
     }
     Foam::Info << Foam::endl;
 }

@@ -90,3 +90,14 @@ TEST_CASE("report: discharges, levels, a warning of gas that enters below the su
     CHECK(has(bad, "Warning: patch inlet lets in 0.0275 m^3/s of gas where water stands at it"));
     CHECK(has(bad, "outlet: no water outside"));
 }
+
+TEST_CASE("gas that the given pressures blow through the mesh is warned of, not that of a free overfall")
+{
+    const auto reportOf = [](const char* hRef) { return Channel({{"constant/hRef", "value 0;", hRef}, pressureOfOutlet("type prghTotalPressure; p0 uniform 3;")}, 0.55).report(); };
+    const std::string bed = reportOf("value 0;"), top = reportOf("value 1;"), far = reportOf("value -4;");
+    if (!isSerial()) return;
+    CHECK(!has(bed, "Warning"));
+    CHECK(!has(top, "Warning"));
+    CHECK(has(far, "Warning: the pressures that patches give to gas differ by 50 Pa"));   // 1 kg/m^3, 10 m/s^2, of 4 m below the bed and of 1 m of the outlet
+    CHECK(has(far, "it will blow with up to 10 m/s"));
+}
