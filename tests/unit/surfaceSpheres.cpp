@@ -16,18 +16,23 @@ using namespace flotsam;
 namespace
 {
 
+/// Distance of the two nearest spheres.
+double closestPair(const std::vector<SurfaceSphere>& spheres)
+{
+    double closest = 1e300;
+    for (std::size_t i = 0; i < spheres.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) closest = std::min(closest, (spheres[i].centre - spheres[j].centre).norm());
+    return closest;
+}
+
 /// Each sphere touches the surface from inside, none twice.
 void checkTouching(const Shape& shape, const std::vector<SurfaceSphere>& spheres)
 {
     REQUIRE(!spheres.empty());
-    double worst = 0, closest = 1e300;
-    for (std::size_t i = 0; i < spheres.size(); ++i)
-    {
-        worst = std::max(worst, std::abs(shape.distance(spheres[i].centre) + spheres[i].radius));
-        for (std::size_t j = 0; j < i; ++j) closest = std::min(closest, (spheres[i].centre - spheres[j].centre).norm());
-    }
+    double worst = 0;
+    for (const SurfaceSphere& s : spheres) worst = std::max(worst, std::abs(shape.distance(s.centre) + s.radius));
     CHECK(worst < 1e-9);
-    CHECK(closest > 1e-6);
+    CHECK(closestPair(spheres) > 1e-6);
 }
 
 /// Largest way from a point of the surface to a sphere's surface.
@@ -199,6 +204,7 @@ TEST_CASE("STL: spheres touch from inside, cover the surface, and are the same a
         checkTouching(*stl, spheres);
         for (const SurfaceSphere& s : spheres) CHECK(s.radius == near(r, 2e-6));
         CHECK(loneliest(spheres) <= spacing);
+        CHECK(closestPair(spheres) >= 0.6 * spacing * (1 - 1e-12));
         CHECK(largestHole(*stl, spheres, spacing) < 0.75 * r); // sqrt(3) r - r at a corner
         REQUIRE(spheres.size() == again.size());
         for (std::size_t i = 0; i < spheres.size(); ++i) CHECK(spheres[i].centre == again[i].centre);
