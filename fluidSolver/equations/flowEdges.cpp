@@ -262,8 +262,7 @@ void FlowEquation::addEdgeForces(const std::vector<double>& x, PatchForces& forc
             for (int b = 0; b < N; ++b)
             {
                 terms.block(a, b, m);
-                for (int k = 0; k < D; ++k)
-                    for (int l = 0; l < B; ++l) force[k] += m[k*B + l]*x[std::size_t(nodes[b])*B + l];
+                addMomentumRows<D>(m, &x[std::size_t(nodes[b])*B], force);
             }
             forces.addAtEdge(nodes[corner], nodes[a], force);
         }

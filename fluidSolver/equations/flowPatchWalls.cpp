@@ -138,15 +138,15 @@ void FlowEquation::addWallFace(const BoundaryPatch& patch, std::size_t f)
 template<int D>
 void FlowEquation::addFaceForce(int p, std::size_t f, const std::vector<double>& x, PatchForces& forces) const
 {
-    constexpr int B = D + 1;
-    const int* nodes = &mesh_.elements[std::size_t(mesh_.patches[patches_[p].meshPatch].faceElement[f])*(D + 1)];
-    forWallFace<D>(patches_[p], f, [&](int a, int b, const double* m, const double* normal)
+    constexpr int N = D + 1, B = D + 1;
+    const int* nodes = &mesh_.elements[std::size_t(mesh_.patches[patches_[p].meshPatch].faceElement[f])*N];
+    double force[N][D] = {}, normal[D] = {};
+    forWallFace<D>(patches_[p], f, [&](int a, int b, const double* m, const double* ofFace)
     {
-        double force[D] = {};
-        for (int k = 0; k < D; ++k)
-            for (int l = 0; l < B; ++l) force[k] += m[k*B + l]*x[std::size_t(nodes[b])*B + l];
-        forces.addFace(p, nodes[a], force, normal);
+        std::copy_n(ofFace, D, normal);
+        addMomentumRows<D>(m, &x[std::size_t(nodes[b])*B], force[a]);
     });
+    for (int a = 0; a < N; ++a) forces.addFace(p, nodes[a], force[a], normal);
 }
 
 template void FlowEquation::assemblePatchWalls<2>();

@@ -300,7 +300,6 @@ void Fluid::keepInlets()
 
 void Fluid::watchPatches(const std::vector<int>& patches)
 {
-    watched_ = patches;
     equation_.system().areForcesAsked = true;
     patchForces_ = std::make_unique<PatchForces>(mesh_, halo_, patches_, patches);
 }
@@ -310,11 +309,12 @@ void Fluid::findPatchForces()
 {
     patchForces_->start();
     equation_.addPatchForces(x_, q_, *patchForces_);
-    for (std::size_t k = 0; k < watched_.size() && isGravityBalanced(); ++k)
+    for (std::size_t k = 0; k < patches_.size() && isGravityBalanced(); ++k)
     {
+        if (!patchForces_->isAsked(int(k))) continue;
         std::vector<FacetPressure> onFaces;
-        addSurfacePressure(mesh_, fluid_, planes_, surfaceDensity_, level_, cover_, mesh_.patches[patches_[watched_[k]].meshPatch], onFaces);
-        for (const FacetPressure& p : onFaces) patchForces_->addFacet(watched_[k], p.element, p.first, p.normal);
+        addSurfacePressure(mesh_, fluid_, planes_, surfaceDensity_, level_, cover_, mesh_.patches[patches_[k].meshPatch], onFaces);
+        for (const FacetPressure& p : onFaces) patchForces_->addFacet(int(k), p.element, p.first, p.normal);
     }
     patchForces_->finish();
 }

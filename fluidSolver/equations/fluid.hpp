@@ -166,7 +166,6 @@ private:
     std::vector<double> surfaceDensity_; // nNodes, work of setGravity()
     std::vector<FacetPressure> surfacePressure_;
     std::unique_ptr<PatchForces> patchForces_;  // null: none asked for
-    std::vector<int> watched_;                  // patches
     std::vector<double> force_;         // nElements*dim; empty between advancePhase() and setGravity()
     std::vector<double> x_, q_;         // solution: nNodes*(dim+1), nDof per solid; x_ is void between endStep() and setFirstGuess(), and lends its memory
     std::vector<PairFlux> ghostFlux_;   // of the last accepted solve

@@ -27,6 +27,14 @@ struct PatchForce
     Vec3 pressureMoment = Vec3::Zero(), frictionMoment = Vec3::Zero();  ///< [N m]; 2D: along the empty direction alone
 };
 
+/// Adds the momentum rows of a block of (D+1)^2 values, row-major, times a node's velocity and pressure.
+template<int D>
+inline void addMomentumRows(const double* block, const double* x, double* force)
+{
+    for (int k = 0; k < D; ++k)
+        for (int l = 0; l <= D; ++l) force[k] += block[k*(D + 1) + l]*x[l];
+}
+
 class PatchForces
 {
 public:
