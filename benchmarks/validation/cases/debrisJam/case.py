@@ -1,22 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Logs that a stream carries to a rack: shape of their jam and backwater rise over the Froude number. N: elements over a log's diameter."""
-import os
-import re
-
 import numpy as np
 
 from runner import foam
 from runner.cases import Run
-from support import jam
+from support import jam, rackCase
 from support.compare import Comparison, relative, small
 
 SCHALKO, PITON = "Schalko et al. 2018, 2019, recalled", "Piton et al. 2020"
-G, DEPTH, WIDTH, HEIGHT, UPSTREAM, DOWNSTREAM = 9.81, 0.16, 0.40, 0.32, 1.90, 0.70
-BAR, PITCH, NLOGS = 0.02, 0.10, 64
+G, PITCH, NLOGS = 9.81, 0.10, 64
+BAR, (DEPTH, WIDTH, HEIGHT, UPSTREAM, DOWNSTREAM) = rackCase.BAR, (rackCase.CHANNEL[i] for i in ("depth", "width", "height", "upstream", "downstream"))
 FIRST, LAST = 2.0, 3.0          # the first log comes in [s]; means of the jam are over the last seconds
 REACH = -1.85, -1.45            # whose mean depth is taken [m]: upstream of the carpet
-SLOW = 0.25                     # a log is held when its speed, mean over half a second, is less than this share of the stream's
-TUTORIAL_SPEED = 0.45
 FACTOR, OVERLAP = 1.5, 1e-3
 
 #           Froude number at the outlet's depth, density of the logs, seed of their places
@@ -47,25 +42,9 @@ def _logs(run):
     return jam.Logs(0.032, 0.16, VARIANTS[run.variant][1])
 
 
-def _tutorial(*path):
-    with open(os.path.join(os.path.dirname(root), "tutorials", "debrisRack", *path), encoding="utf-8") as file:      # noqa: F821 (root is set by the runner)
-        return file.read()
-
-
 def files(run, _folder):
     """But system/parameters."""
-    found = {f"{folder}/{name}": _tutorial(source, name) for source, folder, names in
-             (("0.orig", "0", ("U", "alpha.water", "p_rgh")), ("constant", "constant", ("g", "hRef", "transportProperties", "turbulenceProperties")),
-              ("system", "system", ("blockMeshDict", "fvSchemes", "fvSolution", "setExprFieldsDict"))) for name in names}
-    found["constant/bodies"] = _replaced(_tutorial("constant", "bodies"), r"(random\s*\{)", rf"\1 seed {VARIANTS[run.variant][2]};")
-    found["system/controlDict"] = _replaced(_tutorial("system", "controlDict"), r"endTime +\d+;", f"endTime {_end(run):.4g};")
-    return found
-
-
-def _replaced(text, pattern, new):
-    text, n = re.subn(pattern, new, text)
-    assert n == 1, pattern
-    return text
+    return rackCase.files(root, VARIANTS[run.variant][2], _end(run))    # noqa: F821 (root is set by the runner)
 
 
 def _end(run):
@@ -75,31 +54,18 @@ def _end(run):
 
 def _interval(run):
     """Between the logs: that of the tutorial, as the stream carries them away."""
-    return 0.05 * TUTORIAL_SPEED / _speed(run)
+    return 0.05 * rackCase.TUTORIAL_SPEED / _speed(run)
 
 
 def parameters(run):
-    """Those of the tutorial with others in their places: what it computes from them follows."""
     speed, logs = _speed(run), _logs(run)
-    # slim bars, little thicker than an element: the clean rack of the tutorial would choke the fastest stream
-    own = {"width": WIDTH, "upstream": UPSTREAM, "downstream": DOWNSTREAM, "height": HEIGHT, "depth": DEPTH, "discharge": f"{speed * WIDTH * DEPTH:.6g}",
-           "nBars": 4, "barDiameter": BAR, "pitch": PITCH, "barWall": "noSlip",
-           "nLogs": NLOGS, "logDiameter": logs.diameter, "logLength": logs.length, "logDensity": logs.density, "firstRelease": FIRST,
-           "releaseInterval": f"{_interval(run):.4g}", "supplyLow": 0.255, "supplyHigh": 0.305, "surfaceEnd": 0.24, **_cells(run.n)}
-    found = dict(re.findall(r"^(\w+)\s+([^{};]+|#eval\{[^}]*\}|\$\{.*\});", _tutorial("system", "parameters"), re.MULTILINE))
-    assert own.keys() <= found.keys(), own.keys() - found.keys()
-    return {**found, **own}
+    return rackCase.parameters(root, {      # noqa: F821
+        "discharge": f"{speed * WIDTH * DEPTH:.6g}", "nBars": 4, "pitch": PITCH,
+        "nLogs": NLOGS, "logDiameter": logs.diameter, "logLength": logs.length, "logDensity": logs.density, "firstRelease": FIRST,
+        "releaseInterval": f"{_interval(run):.4g}"}, run.n / 2)
 
 
-def _cells(n):
-    cells = {name: round(n / 2 * number) for name, number in
-             {"nDrift": 57, "nRack": 38, "nOutlet": 18, "ny": 24, "nBed": 3, "nBelow": 6, "nAbove": 5, "nAir": 4}.items()}
-    return {**cells, "nx": sum(cells[i] for i in ("nDrift", "nRack", "nOutlet")), "nLower": cells["nBed"] + cells["nBelow"], "nUpper": cells["nAbove"] + cells["nAir"]}
-
-
-def prepare(_run, do):
-    do("blockMesh")
-    do("setExprFields")
+prepare = rackCase.prepare
 
 
 # --- published --------------------------------------------------------------------------------------------------------
@@ -124,7 +90,7 @@ def errors(run, case):
     import momentum
     h = reader.history(case)
     spans = {"clean": (FIRST - 1, FIRST), "jammed": (h.time[-1] - LAST, h.time[-1])}
-    held, passed = _held(h, driftwood, _speed(run))
+    held, passed = rackCase.held(h, driftwood, _speed(run))
     shape = _shape(run, h, driftwood, held)
     times = [t for t in reader.times(case) if t > 0]
     levels = np.array([driftwood.reachDepth(case, t, *REACH, HEIGHT) for t in times])
@@ -134,13 +100,6 @@ def errors(run, case):
     return {"comparisons": [*_jam(run, shape, held, passed), *_backwater(run, level, balance, shape, held),
                             small("deepest overlap of a contact", h.run["largestOverlap"].max(), OVERLAP, "m"),
                             small("water made or lost, over the largest volume", driftwood.massError(h), driftwood.MASS)]}
-
-
-def _held(h, driftwood, speed):
-    """Which logs the rack holds at the end, and which have passed it."""
-    isThere = np.array([h.isThere("bodies/" + name)[-1] for name in h.bodies])
-    x = driftwood.positions(h)[:, -1, 0]
-    return isThere & (x < BAR / 2) & (driftwood.meanSpeed(h, 0.5)[:, -1] < SLOW * speed), x > BAR / 2
 
 
 def _shape(run, h, driftwood, held):
