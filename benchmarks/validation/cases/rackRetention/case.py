@@ -14,13 +14,13 @@ FIRST, INTERVAL, LAST = 2.0, 0.1, 2.0       # the first log comes in, the next o
 HELD, PASSED, OVERLAP = 2, 0.75, 1e-3       # length over opening from which on, up to which logs are held, pass
 MOST, FEW = 0.9, 0.1                        # of the logs
 
-VARIANTS = {f"L/b {ratio:g}": ratio for ratio in (0.75, 1, 1.5, 2, 3)}
+VARIANTS = {f"length {ratio:g} b": ratio for ratio in (0.75, 1, 1.5, 2, 3)}
 
 title = f"""tutorials/debrisRack with other parameters: channel 0.4 m wide, 0.16 m deep at the outlet, {SPEED:g} m/s (Froude number 0.36), rack of four no-slip bars 0.02 m thick with clear openings b of
 {OPENING:g} m, {NLOGS} logs {DIAMETER:g} m thick of {DENSITY} kg/m3, which come in at random places and yaws {1000 * INTERVAL:g} ms apart, 1.45 to 1.8 m upstream. Held: at the end (4 s after the last may have come to
 the rack) upstream of it and slower than a quarter of the stream. Rules of design hold the logs that are {HELD:g} (1.5) openings long; shorter than an opening, a log passes at any yaw and is held by others alone.
 Targets, stated before the runs: from {HELD:g} openings on at least {100 * MOST:g} % held, up to {PASSED:g} at most {100 * FEW:g} %. Force: of water and logs on the rack, mean over the last {LAST:g} s, over that of the clean rack."""
-runs = [Run("flotsamFoam", 5, name, quick=name == "L/b 2", timeLimit=7200) for name in VARIANTS]
+runs = [Run("flotsamFoam", 5, name, quick=name == "length 2 b", timeLimit=7200) for name in VARIANTS]
 
 
 def resolution(run):
