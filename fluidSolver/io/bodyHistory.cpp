@@ -48,7 +48,8 @@ constexpr Series allSeries[] = {
 constexpr std::size_t recordSize = 32;
 constexpr std::size_t chunkRows = 256;      ///< rows a dataset grows by in the file
 constexpr std::size_t maxBufferedRows = 64;
-constexpr double maxBufferedSeconds = 1;
+constexpr double maxBufferedSeconds = 1;    ///< or what keeps the time that goes into the file below `largestShare` of the run's: of hundreds of bodies it takes tenths of a second
+constexpr double largestShare = 0.01;
 
 void pack(const BodyRecord& r, std::vector<double>& out)
 {
@@ -109,6 +110,7 @@ struct BodyHistory::Implementation
     std::vector<std::vector<double>> records;       ///< per member: times.size() records of recordSize numbers
     std::map<std::string, std::vector<double>> scalars; ///< every name ever given; times.size() values each
     std::chrono::steady_clock::time_point lastFlush = std::chrono::steady_clock::now();
+    double flushSeconds = 0;                        ///< that the last flush took
 
     Implementation(const std::string& file, const std::vector<HistoryMember>& members, double startTime);
     void create();
@@ -261,6 +263,7 @@ void BodyHistory::Implementation::flushTo(Hdf5File& out)
 
 void BodyHistory::Implementation::flush()
 {
+    const auto start = std::chrono::steady_clock::now();
     if (!times.empty())
     {
         Hdf5File out(file, Hdf5File::Mode::ReadWrite);
@@ -268,6 +271,7 @@ void BodyHistory::Implementation::flush()
         out.close();
     }
     lastFlush = std::chrono::steady_clock::now();
+    flushSeconds = std::chrono::duration<double>(lastFlush - start).count();
 }
 
 BodyHistory::BodyHistory(const std::string& file, const std::vector<HistoryMember>& members, double startTime)
@@ -313,7 +317,7 @@ void BodyHistory::append(double time, const std::vector<BodyRecord>& records,
     for (auto& scalar : my.scalars) scalar.second.resize(n, missing);
 
     const std::chrono::duration<double> age = std::chrono::steady_clock::now() - my.lastFlush;
-    if (n >= maxBufferedRows || age.count() > maxBufferedSeconds) my.flush();
+    if (n >= maxBufferedRows || age.count() > std::max(maxBufferedSeconds, my.flushSeconds / largestShare)) my.flush();
 }
 
 void BodyHistory::flush()

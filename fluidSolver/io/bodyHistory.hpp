@@ -35,7 +35,7 @@ struct HistoryMember
     TriSurface surface;     ///< in the body frame
 };
 
-/// Written by rank 0. Records are kept in memory and written in blocks (every 64 records or every second of wall time, at
+/// Written by rank 0. Records are kept in memory and written in blocks (every 64 records or every second of wall time, with many members less often, at
 /// flush(), writeSurface() and the end); between blocks the file is closed, so that it can be read (h5py) at any time and
 /// survives a kill. Datasets per member: time-major [nTimes x k] float64 with attribute "unit"; all share one "time".
 class BodyHistory
