@@ -14,6 +14,7 @@ flotsam_test(slipBend verification SOURCES verification/slipBend.cpp
   LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(liquidShares unit SOURCES unit/liquidShares.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2 3)
 flotsam_test(viscousForce unit SOURCES unit/viscousForce.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
+flotsam_test(eddyViscosity unit SOURCES unit/eddyViscosity.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(liquidPlace unit SOURCES unit/liquidPlace.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(openBoundary unit SOURCES unit/openBoundary.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)
 flotsam_test(shutPockets unit SOURCES unit/shutPockets.cpp LIBRARIES flotsam_equations flotsam_test_support RANKS 1 2)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The contacts of this instant, one per pair of bodies or of body and wall.
-#include "demCoupling/liggghts/closestPoint.hpp"
+#include "geometry/closestPoint.hpp"
 #include "demCoupling/liggghts/liggghtsHistory.hpp"
 
 #include "atom.h"

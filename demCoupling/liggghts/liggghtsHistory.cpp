@@ -3,7 +3,7 @@
 /// Pair contacts and planes are keyed by sphere tags, mesh contacts by sphere tag and triangle id.
 #include "demCoupling/liggghts/liggghtsHistory.hpp"
 
-#include "demCoupling/liggghts/closestPoint.hpp"
+#include "geometry/closestPoint.hpp"
 
 #include "atom.h"
 #include "fix_mesh_surface.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/liggghts/liggghtsNear.hpp"
 
-#include "demCoupling/liggghts/closestPoint.hpp"
+#include "geometry/closestPoint.hpp"
 #include "demCoupling/liggghts/liggghtsHistory.hpp"
 
 #include <mpi.h>

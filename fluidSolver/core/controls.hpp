@@ -38,6 +38,7 @@ struct NumericsControls
     double wallGamma = 16;          ///< the same on no-slip patches whose layer is resolved; 0: their velocity is prescribed at the nodes
     bool wallLaw = false;           ///< on no-slip patches at least the traction of a turbulent layer
     double wallRoughness = 0;       ///< sand roughness in the wall law [m]
+    double mixingDepth = 0;         ///< depth of the stream whose eddy viscosity is added, see EddyViscosity; 0: none [m]
     double penalty = 1e3;           ///< pure penalty pbar [Pa s/m] (paper eq 5), used when nitsche is false
     double ghostVelocity = 0.05, ghostConvection = 0.01, ghostPressure = 0.05;
     // phase field

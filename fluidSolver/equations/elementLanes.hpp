@@ -98,7 +98,7 @@ private:
         const auto rho = [&](int i) { return nodal_.rho[i]; };
         const auto mu = [&](int i) { return nodal_.mu[i]; };
         data.rho = isOneFluid_ ? corner(0, rho) : mean(rho);
-        data.mu = isOneFluid_ ? corner(0, mu) : mean(mu);
+        data.mu = isOneFluid_ && nodal_.eddy.empty() ? corner(0, mu) : mean(mu);
     }
 
     /// First order where the density is steep.

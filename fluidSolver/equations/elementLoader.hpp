@@ -28,7 +28,8 @@ struct NodeInertia
 struct NodalData
 {
     std::vector<double> rho, rhoOld, rhoOlder;  ///< at t^(n+1), t^n, t^(n-1) [kg/m^3]
-    std::vector<double> mu;                     ///< [Pa s]
+    std::vector<double> mu;                     ///< with the eddy viscosity [Pa s]
+    std::vector<double> eddy;                   ///< eddy viscosity (EddyViscosity); empty: none [Pa s]
     std::vector<double> advection;              ///< a at t^(n+1) [m/s]
     std::vector<double> history;                ///< -(c1 u^n + c2 u^(n-1)) [m/s^2]
     enum Fluid : char { Mixed, Liquid, Gas };
@@ -236,7 +237,7 @@ inline bool loadMeans(int e, const SimplexMesh& mesh, const FlowStepData& step, 
     data.volume = cut ? cut->volume : mesh.volume[e];
     data.gradN = &mesh.gradN[std::size_t(e)*N*D];
     // sums in variables of their own: added up in `data`, every addition would wait until the last one has been written to memory and read back
-    double rho = 0, rhoOld = 0, rhoOlder = 0, mu = 0, advection[D] = {};
+    double rho = 0, rhoOld = 0, rhoOlder = 0, mu = 0, eddy = 0, advection[D] = {};
     const double inverse = cut ? 1/data.volume : 0;
     for (int a = 0; a < N; ++a)
     {
@@ -247,10 +248,12 @@ inline bool loadMeans(int e, const SimplexMesh& mesh, const FlowStepData& step, 
         rhoOld += w*nodal.rhoOld[i];
         rhoOlder += w*nodal.rhoOlder[i];
         mu += w*nodal.mu[i];
+        if (!nodal.eddy.empty()) eddy += w*nodal.eddy[i];
         for (int d = 0; d < D; ++d) advection[d] += w*nodal.advection[std::size_t(i)*D + d];
     }
     data.rho = rho;
     data.mu = mu;
+    data.molecular = mu - eddy;
     source.rhoOld = rhoOld;
     source.rhoOlder = rhoOlder;
     for (int d = 0; d < D; ++d) data.advection[d] = advection[d];

@@ -34,6 +34,7 @@ struct ElementData : CutMoments<Real>
     Real first[N];                      ///< int N_a
     const Real* gradN;                  ///< N*D
     Real rho, mu;                       ///< density, viscosity at t^(n+1): means over the fluid part
+    Real molecular;                     ///< viscosity without that of eddies: of walls [Pa s]
     Real c0;                            ///< du/dt = c0 u - history [1/s]
     /// d(rho u)/dt - 1/2 drho/dt u = inertia u - momentumHistory with BDF of rho u and rho: inertia =
     /// 1/2 (c0 rho - c1 rho^n - c2 rho^(n-1)) stays positive when a node turns from water to gas in one step, where

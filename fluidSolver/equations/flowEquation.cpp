@@ -42,6 +42,15 @@ FlowEquation::FlowEquation(const SimplexMesh& mesh, const NodeGraph& graph, cons
         if (p.velocity == BoundaryPatch::Velocity::Open)
             for (int i : p.nodes) isOpen_[i] = 1;
     buildConstraints();
+    if (controls.mixingDepth > 0) eddies_ = std::make_unique<EddyViscosity>(mesh, halo, noSlipPatches(), controls);
+}
+
+std::vector<int> FlowEquation::noSlipPatches() const
+{
+    std::vector<int> found;
+    for (const BoundaryPatch& p : patches_)
+        if (p.velocity == BoundaryPatch::Velocity::NoSlip) found.push_back(p.meshPatch);
+    return found;
 }
 
 void FlowEquation::setMaterials()
@@ -76,6 +85,7 @@ void FlowEquation::assemble(const FlowStepData& step)
     setMaterials();
     if (controls_.viscousResidual && viscousForce_.find(nodal_.rho, nodal_.mu, nodal_.advection, step_.cover, step_.time.dt))
         step_.viscousForce = &viscousForce_.values();
+    if (eddies_) eddies_->add(step_.cover, nodal_);
     std::fill(system_.rhs.begin(), system_.rhs.end(), 0.0);
     std::fill(system_.pressureMass.begin(), system_.pressureMass.end(), 0.0);
     std::fill(system_.dualVolume.begin(), system_.dualVolume.end(), 0.0);

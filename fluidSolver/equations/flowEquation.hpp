@@ -4,6 +4,7 @@
 
 #include "algebra/flowSystem.hpp"
 #include "equations/beyondMesh.hpp"
+#include "equations/eddyViscosity.hpp"
 #include "equations/elementLoader.hpp"
 #include "equations/rowPrefetch.hpp"
 #include "equations/slipNormals.hpp"
@@ -13,6 +14,7 @@
 
 #include <array>
 #include <map>
+#include <memory>
 
 namespace flotsam
 {
@@ -149,6 +151,7 @@ private:
         return loadMeans<D>(e, mesh_, step_, controls_, nodal_, data, source);
     }
     void setMaterials();
+    std::vector<int> noSlipPatches() const;
     void buildConstraints();
     void findWallRims(const std::vector<char>& isFixed);
     void addRimNodes(int p, const std::vector<char>& isResting);
@@ -167,6 +170,7 @@ private:
     RowPrefetch rows_;
     std::vector<char> isStarted_;               // owned nodes: see startRow()
     ViscousForce viscousForce_;
+    std::unique_ptr<EddyViscosity> eddies_;  // null: none
     BeyondMesh beyond_;
     std::vector<double> defect_;                // owned nodes: see massDefect()
     std::vector<FilmPair> films_;

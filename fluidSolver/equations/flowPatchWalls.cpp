@@ -21,20 +21,31 @@ namespace flotsam
 namespace
 {
 
-/// Coefficients of the tangential velocity on a no-slip patch. speed: along the wall, mean over the face [m/s]; height: of the element over it [m].
+/// With the wall law below a profile that the elements have: by the velocity at the element's centroid, centreSpeed, which the layer below moves; the wall's own slips by what
+/// the lowest element cannot show of the profile.
+template<int D>
+void holdByProfile(const ElementData<D>& e, const NumericsControls& controls, double speed, double centreSpeed, double height, WallCoefficients& c)
+{
+    constexpr double leastSlip = 0.1;   // share of the velocity above: less is next to none
+    const double reynolds = centreSpeed*e.rho/e.molecular, u = velocityOverFriction(reynolds*height/(D + 1), reynolds*controls.wallRoughness);
+    if (u > 0) c.tangential = std::max(c.tangential, e.rho*centreSpeed*centreSpeed/(u*u*std::max(speed, leastSlip*centreSpeed)));
+}
+
+/// Coefficients of the tangential velocity on a no-slip patch. speed: along the wall, mean over the face; centreSpeed: that of the element [m/s]; height: of the element over it [m].
 /// Where the elements resolve the layer the form is symmetric, and the fluid above the wall does not feel that the wall slips a little; it needs a gamma above 2 D.
 /// Where they do not, less must hold: what is held there is taken from fluid whose layer is far thinner than the element; the non-symmetric form is stable with it,
 /// and in elements that a solid cuts, of which any small part may lie on the wall.
 template<int D>
-void holdTangentially(const ElementData<D>& e, const NumericsControls& controls, double speed, double height, bool isCut, WallCoefficients& c)
+void holdTangentially(const ElementData<D>& e, const NumericsControls& controls, double speed, double centreSpeed, double height, bool isCut, WallCoefficients& c)
 {
     constexpr double sublayer = 20;     // Reynolds number of an element's height: about where the viscous sublayer ends, y+ u+ = 25
-    const double reynolds = e.rho*speed*height/e.mu, resolved = isCut ? 0 : 1/(1 + reynolds*reynolds/(sublayer*sublayer));
+    const double reynolds = e.rho*speed*height/e.molecular, resolved = isCut ? 0 : 1/(1 + reynolds*reynolds/(sublayer*sublayer));
     const double gamma = controls.nitscheGamma + std::max(0.0, controls.wallGamma - controls.nitscheGamma)*resolved;
     c.adjoint = 1 - 2*resolved;
-    c.tangential = gamma*e.mu/height;
+    c.tangential = gamma*e.molecular/height;
     if (!controls.wallLaw || speed <= 0) return;
-    const double u = velocityOverFriction(reynolds/2, e.rho*speed*controls.wallRoughness/e.mu);    // in the middle of the element
+    if (controls.mixingDepth > 0) return holdByProfile(e, controls, speed, centreSpeed, height, c);
+    const double u = velocityOverFriction(reynolds/2, e.rho*speed*controls.wallRoughness/e.molecular);  // in the middle of the element
     c.tangential = std::max(c.tangential, e.rho*speed/(u*u));
 }
 
@@ -46,6 +57,7 @@ struct WallFace
     double area = 0, height;                ///< [m^(D-1)]; of the element over it [m]
     double first[D + 1] = {}, second[(D + 1)*(D + 1)] = {};    ///< int N_a, int N_a N_b over the fluid part, by the element's corners
     double outflow = 0, speed = 0;          ///< velocity into the wall and along it, means over the face [m/s]
+    double centreSpeed = 0;                 ///< along the wall, at the element's centroid [m/s]
 
     WallFace(const SimplexMesh& mesh, const Cover* cover, const MeshPatch& faces, std::size_t f, const std::vector<double>& velocity)
     {
@@ -62,13 +74,30 @@ struct WallFace
             corner[k] = int(std::find(nodes, nodes + D + 1, face[k]) - nodes);
             for (int d = 0; d < D; ++d) mean[d] += moments.first[k]*velocity[std::size_t(face[k])*D + d];
         }
-        for (int d = 0; d < D; ++d) outflow += mean[d]*normal[d];
-        speed = std::sqrt(std::max(0.0, squared<D>(mean) - outflow*outflow));
+        outflow = intoWall(mean);
+        speed = alongWall(mean);
+        double centre[D] = {};
+        for (int a = 0; a <= D; ++a)
+            for (int d = 0; d < D; ++d) centre[d] += velocity[std::size_t(nodes[a])*D + d]/(D + 1);
+        centreSpeed = alongWall(centre);
         for (int k = 0; k < D; ++k)
         {
             first[corner[k]] = area*moments.first[k];
             for (int l = 0; l < D; ++l) second[corner[k]*(D + 1) + corner[l]] = area*moments.second[k*D + l];
         }
+    }
+
+private:
+    double intoWall(const double* u) const
+    {
+        double sum = 0;
+        for (int d = 0; d < D; ++d) sum += u[d]*normal[d];
+        return sum;
+    }
+    double alongWall(const double* u) const
+    {
+        const double into = intoWall(u);
+        return std::sqrt(std::max(0.0, squared<D>(u) - into*into));
     }
 };
 
@@ -110,7 +139,7 @@ void FlowEquation::forWallFace(const BoundaryPatch& patch, std::size_t f, const 
     const WallFace<D> face(mesh_, step_.cover, faces, f, nodal_.advection);
     WallCoefficients c = nitscheCoefficients(data, isSlip, controls_.nitscheGamma, mesh_.h[e], penaltyRateOf(e), 0);   // no volume passes: nothing flows in
     if (!hasEdge || face.outflow < 0) c.normal = 0;
-    if (!isSlip) holdTangentially(data, controls_, face.speed, face.height, step_.cover && step_.cover->state[e] == ElementState::Cut, c);
+    if (!isSlip) holdTangentially(data, controls_, face.speed, face.centreSpeed, face.height, step_.cover && step_.cover->state[e] == ElementState::Cut, c);
     const WallTerms<D> terms(c, face.normal, data.gradN);
     double m[B*B];
     for (int a = 0; a < N; ++a)

@@ -67,7 +67,7 @@ double holdOfSolid(const ElementData<D>& e, const int* nodes, const RigidArm<D>*
         for (int d = 0; d < D; ++d) along += wall[d]*e.gradN[a*D + d];
         for (int d = 0; d < D; ++d) rate[d] += along*nodal.advection[std::size_t(nodes[a])*D + d];
     }
-    return separationHold<D>(share, e.rho, e.mu, h, mean, relative, rate, e.gradN);
+    return separationHold<D>(share, e.rho, e.molecular, h, mean, relative, rate, e.gradN);
 }
 
 } // namespace

@@ -19,7 +19,7 @@ bool isFluid(const Cover* cover, int e) { return !cover || cover->state[e] != El
 
 } // namespace
 
-ViscousForce::ViscousForce(const SimplexMesh& mesh, const Halo& halo) : mesh_(mesh), halo_(halo), leastLength_(1e30)
+ViscousForce::ViscousForce(const SimplexMesh& mesh, const Halo& halo) : mesh_(mesh), halo_(halo), gradients_(mesh, halo), leastLength_(1e30)
 {
     for (double h : mesh.h) leastLength_ = std::min(leastLength_, h);
     leastLength_ = halo.min(leastLength_);
@@ -31,16 +31,8 @@ bool ViscousForce::find(const std::vector<double>& rho, const std::vector<double
     for (int i = 0; i < mesh_.nNodes; ++i) nu = std::max(nu, mu[i]/rho[i]);
     if (0.5*halo_.max(nu)*dt < leastShare*leastLength_*leastLength_) return false;
     markKinks(rho);
-    if (mesh_.dim == 2)
-    {
-        findGradients<2>(u, cover);
-        findForces<2>(mu, cover);
-    }
-    else
-    {
-        findGradients<3>(u, cover);
-        findForces<3>(mu, cover);
-    }
+    gradients_.find(u, cover);
+    if (mesh_.dim == 2) findForces<2>(mu, cover); else findForces<3>(mu, cover);
     return true;
 }
 
@@ -62,39 +54,6 @@ void ViscousForce::markKinks(const std::vector<double>& rho)
     halo_.update(isKink_, 1);
 }
 
-/// Means over the elements around a node. A cut element counts whole: its gradient is that of the whole of it.
-template<int D>
-void ViscousForce::findGradients(const std::vector<double>& u, const Cover* cover)
-{
-    constexpr int N = D + 1;
-    gradient_.assign(std::size_t(mesh_.nNodes)*D*D, 0.0);
-    weight_.assign(mesh_.nNodes, 0.0);
-    for (int e = 0; e < mesh_.nInnerElements; ++e)
-    {
-        if (!isFluid(cover, e)) continue;
-        const int* nodes = &mesh_.elements[std::size_t(e)*N];
-        double integral[D*D] = {};
-        for (int a = 0; a < N; ++a)
-        {
-            const double *ua = &u[std::size_t(nodes[a])*D], *ga = &mesh_.gradN[(std::size_t(e)*N + a)*D];
-            for (int k = 0; k < D; ++k)
-                for (int l = 0; l < D; ++l) integral[k*D + l] += mesh_.volume[e]*ua[k]*ga[l];
-        }
-        for (int a = 0; a < N; ++a)
-        {
-            if (nodes[a] >= mesh_.nOwned) continue;
-            weight_[nodes[a]] += mesh_.volume[e];
-            for (int c = 0; c < D*D; ++c) gradient_[std::size_t(nodes[a])*D*D + c] += integral[c];
-        }
-    }
-    for (int i = 0; i < mesh_.nOwned; ++i)
-    {
-        if (weight_[i] == 0) continue;
-        for (int c = 0; c < D*D; ++c) gradient_[std::size_t(i)*D*D + c] /= weight_[i];
-    }
-    halo_.update(gradient_, D*D);
-}
-
 template<int D>
 void ViscousForce::findForces(const std::vector<double>& mu, const Cover* cover)
 {
@@ -107,7 +66,7 @@ void ViscousForce::findForces(const std::vector<double>& mu, const Cover* cover)
         double force[D] = {};
         for (int a = 0; a < N; ++a)
         {
-            const double *ga = &mesh_.gradN[(std::size_t(e)*N + a)*D], *gradient = &gradient_[std::size_t(nodes[a])*D*D];
+            const double *ga = &mesh_.gradN[(std::size_t(e)*N + a)*D], *gradient = gradients_.at(nodes[a]);
             for (int k = 0; k < D; ++k)
                 for (int l = 0; l < D; ++l) force[k] += mu[nodes[0]]*gradient[k*D + l]*ga[l];
         }

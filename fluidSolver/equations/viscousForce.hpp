@@ -4,10 +4,7 @@
 /// Shakib 1999, doi 10.1016/S0045-7825(98)00284-9) of the extrapolated velocity: right-hand sides only.
 #pragma once
 
-#include "algebra/halo.hpp"
-#include "geometry/cover.hpp"
-
-#include <vector>
+#include "equations/nodalGradients.hpp"
 
 namespace flotsam
 {
@@ -25,15 +22,14 @@ public:
     const std::vector<double>& values() const { return values_; }
 
 private:
-    template<int D> void findGradients(const std::vector<double>& u, const Cover* cover);
     template<int D> void findForces(const std::vector<double>& mu, const Cover* cover);
     void markKinks(const std::vector<double>& rho);
 
     const SimplexMesh& mesh_;
     const Halo& halo_;
+    NodalGradients gradients_;
     double leastLength_;                    // of the elements, all ranks [m]
     std::vector<int> isKink_;               // nNodes: the velocity has a kink there
-    std::vector<double> gradient_, weight_; // nNodes*dim*dim: du_k/dx_l at k*dim + l [1/s]; volume of the elements around
     std::vector<double> values_;
 };
 

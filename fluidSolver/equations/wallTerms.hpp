@@ -30,7 +30,8 @@ struct WallCoefficients
     double convection;      ///< 1/2 rho (ubar.n): boundary part of the skew-symmetric convection, on u.w
 };
 
-/// Of the Nitsche condition, without the surface's convection. rate: penaltyRate() [1/s]; outflow: (a - ubar).n, mean over the facet [m/s].
+/// Of the Nitsche condition, without the surface's convection. Eddies transfer nothing to a no-slip wall: there the layer below them does.
+/// rate: penaltyRate() [1/s]; outflow: (a - ubar).n, mean over the facet [m/s].
 template<int D>
 inline WallCoefficients nitscheCoefficients(const ElementData<D>& e, bool isSlip, double gamma, double h, double rate, double outflow)
 {
@@ -39,8 +40,8 @@ inline WallCoefficients nitscheCoefficients(const ElementData<D>& e, bool isSlip
     WallCoefficients c{};
     c.isNitsche = true;
     c.isSlip = isSlip;
-    c.mu = e.mu;
-    c.tangential = gamma*e.mu/h + e.rho*std::max(0.0, -outflow);
+    c.mu = isSlip ? e.mu : e.molecular;
+    c.tangential = gamma*c.mu/h + e.rho*std::max(0.0, -outflow);
     c.normal = e.rho*((isSlip ? 0.01 : 0.1)*h*rate + 0.1*std::sqrt(speed));
     return c;
 }

@@ -49,6 +49,7 @@ const std::vector<ControlEntry>& controlsTable()
         {"wallGamma", &N::wallGamma, {0, 1e6}, "the same on no-slip patches where their layer is resolved (0: velocity prescribed at the nodes)"},
         {"wallLaw", &N::wallLaw, anyValue, "on: at least the traction of a turbulent layer on no-slip patches; off: of the resolved flow alone"},
         {"wallRoughness", &N::wallRoughness, {0, 1e3}, "sand roughness of no-slip patches in the wall law [m]"},
+        {"mixingDepth", &N::mixingDepth, {0, 1e4}, "depth of a turbulent stream over no-slip patches, for its eddy viscosity; 0: none [m]"},
         {"penalty", &N::penalty, {0, 1e12, true}, "pure penalty coefficient [Pa s/m], used with nitsche off"},
         {"ghostVelocity", &N::ghostVelocity, {0, 100}, "ghost penalty of the velocity, viscous scale"},
         {"ghostConvection", &N::ghostConvection, {0, 100}, "ghost penalty of the velocity, convective scale"},
@@ -303,6 +304,9 @@ NumericsControls readNumerics(const Foam::dictionary& fvSolution)
     for (const auto& entry : controlsTable()) known.push_back(entry.keyword);
     checkKeywords(dict, known);
     for (const auto& entry : controlsTable()) readEntry(dict, entry, numerics);
+    if (numerics.mixingDepth > 0 && !numerics.wallLaw)
+        failIn(dict, text("mixingDepth ", numerics.mixingDepth, " m gives the stream an eddy viscosity, and wallLaw is off: the bed would hold next to nothing of it.\n"
+            "    Set wallLaw on, or take mixingDepth out."));
     if (numerics.wallLaw && numerics.wallGamma == 0)
         failIn(dict, text("wallLaw is on and wallGamma is 0, which prescribes the velocity of no-slip patches at the nodes: there is nothing for the law to do.\n"
             "    Give a wallGamma above 0 (default ", NumericsControls().wallGamma, ") or set wallLaw off."));

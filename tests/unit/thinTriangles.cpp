@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Thin triangles of surfaces that bodies touch: divided, they are the same surface, without angles that the contact engine refuses.
-#include "demCoupling/liggghts/closestPoint.hpp"
+#include "geometry/closestPoint.hpp"
 #include "geometry/thinTriangles.hpp"
 #include "geometry/triSurface.hpp"
 #include "support/near.hpp"

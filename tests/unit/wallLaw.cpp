@@ -22,7 +22,8 @@ TEST_CASE("velocity over a smooth wall")
 // u+ = ln(y/ks)/kappa + 8.5 (Nikuradse)
 TEST_CASE("velocity over a rough wall")
 {
-    for (double height : {5., 100., 1e4}) CHECK(velocityOverFriction(1e9, 1e9/height) == near(std::log(height)/0.41 + 8.5, 0.03));
+    for (double height : {5., 100., 1e4}) CHECK(velocityOverFriction(1e9, 1e9/height) == near(std::log(height)/0.41 + 8.5, 0.01));
+    CHECK(velocityOverFriction(1e9, 1e9) == near(std::log(1 + std::exp(0.41*8.5))/0.41, 1e-3));    // at the height of a grain
     for (double reY : {1e-3, 1., 1e3, 1e6}) // and it never lets more pass than the smooth one
         CHECK(velocityOverFriction(reY, reY/20) <= velocityOverFriction(reY, 0));
 }
