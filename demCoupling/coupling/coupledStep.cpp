@@ -129,15 +129,12 @@ void CoupledStep::letIn(double time)
     for (int b = 0; b < coupling_->nBodies(); ++b)
     {
         if (coupling_->presence(b) != Presence::Awaited || !coupling_->isDue(b, time)) continue;
-        const std::string obstacle = entry_->obstacle(b, fluid_.state().alpha, coupling_->states(), coupling_->areAway(), scene_.solids());
-        if (obstacle.empty()) coupling_->letIn(b);
+        const Obstacle obstacle = entry_->obstacle(b, fluid_.state().alpha, coupling_->states(), coupling_->areAway(), scene_.solids());
+        if (!obstacle.isThere()) coupling_->letIn(b);
         else if (!isWaiting_[b])
-        {
-            const bool isLiquid = obstacle.rfind("liquid", 0) == 0; // it may stay for ever, other bodies go on
-            waiting_.push_back("body " + coupling_->definition(b).name + " is to come in, but there is " + obstacle + " at its place: it waits"
-                + (isLiquid ? " until there is none. Give it a place two elements above the highest level (constant/bodies)" : ""));
-        }
-        isWaiting_[b] = !obstacle.empty();
+            waiting_.push_back("body " + coupling_->definition(b).name + " is to come in, but there is " + obstacle.name + " at its place: it waits"
+                + (obstacle.isLiquid ? " until there is none. Give it a place two elements above the highest level (constant/bodies)" : ""));
+        isWaiting_[b] = obstacle.isThere();
     }
 }
 

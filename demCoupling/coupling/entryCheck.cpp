@@ -62,12 +62,12 @@ bool reachesInto(const BodyDefinition& body, const Corners& x, int n, int halvin
 }
 
 /// With the largest alpha: little of it is the surface's tail, which reaches farther than the level that one sees.
-std::string liquid(double alpha)
+Obstacle liquid(double alpha)
 {
-    if (alpha <= wet) return "";
+    if (alpha <= wet) return {};
     char text[64];
     std::snprintf(text, sizeof text, "liquid (alpha up to %.2g) in the elements", alpha);
-    return text;
+    return {text, true};
 }
 
 } // namespace
@@ -78,13 +78,13 @@ EntryCheck::EntryCheck(const SimplexMesh& mesh, const Halo& halo, const std::vec
     for (const BodyDefinition& body : bodies) extents_.push_back(outerRadius(body));
 }
 
-std::string EntryCheck::obstacle(int body, const std::vector<double>& alpha, const std::vector<BodyState>& states, const std::vector<char>& isAway,
+Obstacle EntryCheck::obstacle(int body, const std::vector<double>& alpha, const std::vector<BodyState>& states, const std::vector<char>& isAway,
     const std::vector<Solid>& structures)
 {
     for (const Solid& structure : structures)
-        if (structure.kind == Solid::Kind::Prescribed && touches(body, structure)) return "structure '" + structure.name + "'";
+        if (structure.kind == Solid::Kind::Prescribed && touches(body, structure)) return {"structure '" + structure.name + "'"};
     for (int other = 0; other < int(bodies_.size()); ++other)
-        if (other != body && !isAway[other] && touches(body, other, states[other].pose)) return "body '" + bodies_[other].name + "'";
+        if (other != body && !isAway[other] && touches(body, other, states[other].pose)) return {"body '" + bodies_[other].name + "'"};
     double wettest = 0;
     for (int i : nodesAt(body)) wettest = std::max(wettest, alpha[i]);
     return liquid(halo_.max(wettest));

@@ -12,15 +12,24 @@
 namespace flotsam
 {
 
+/// What is in the way of a body that is to come in.
+struct Obstacle
+{
+    std::string name;       ///< in words; empty: nothing
+    bool isLiquid = false;  ///< it may stay for ever; other bodies go on
+
+    bool isThere() const { return !name.empty(); }
+};
+
 class EntryCheck
 {
 public:
     /// References must outlive this.
     EntryCheck(const SimplexMesh& mesh, const Halo& halo, const std::vector<BodyDefinition>& bodies);
 
-    /// What is in the way of `body` at the pose of its definition, in words; empty: nothing. alpha: of all nodes, liquid 1; states: of all bodies,
+    /// At the pose of the definition of `body`. alpha: of all nodes, liquid 1; states: of all bodies,
     /// of which those marked in isAway do not count; structures: those with prescribed motion count, where they are now. Collective; every rank gives the same.
-    std::string obstacle(int body, const std::vector<double>& alpha, const std::vector<BodyState>& states, const std::vector<char>& isAway,
+    Obstacle obstacle(int body, const std::vector<double>& alpha, const std::vector<BodyState>& states, const std::vector<char>& isAway,
         const std::vector<Solid>& structures);
 
 private:

@@ -37,6 +37,8 @@ refused range 'setNumerics . "tolerance -1;"' \
 refused gravityAcross 'sed -i "s/(0 -9.81 0)/(0 0 -9.81)/" constant/g' 'constant/g is (0 0 -9.81), along z' 'for instance (0 -9.81 0)'
 refused wallLaw 'setNumerics . "wallLaw on; wallGamma 0;"' \
     fvSolution wallLaw 'wallGamma is 0'
+refused mixingWithoutLaw 'setNumerics . "mixingDepth 0.2;"' \
+    fvSolution mixingDepth 'wallLaw is off' 'Set wallLaw on'
 refused missingField 'rm 0/p_rgh' p_rgh
 refused missingPhase 'rm 0/alpha.water' alpha.water 'is missing' setFields
 refused functionObjectsFolder 'setEntry system/controlDict startFrom latestTime; mkdir 0.5; cp 0/U 0.5' 'Time 0.5 has no alpha.water' 'time 0 has' 'startTime 0;'

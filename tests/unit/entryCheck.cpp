@@ -42,7 +42,7 @@ TEST_CASE("a place is free where there is neither liquid nor a body that is ther
     EntryCheck check(mesh, halo, {makeLog("new", place), makeLog("old", Vec3(9, 9, 9))});
     std::vector<double> alpha(mesh.nNodes);
     const auto fill = [&](double level) { for (int i = 0; i < mesh.nNodes; ++i) alpha[i] = mesh.spacePoint(i)[2] <= level; };
-    const auto obstacle = [&](const Vec3& other, double yaw = 0, bool isAway = false) { return check.obstacle(0, alpha, {at(place), at(other, yaw)}, {0, isAway}, {}); };
+    const auto obstacle = [&](const Vec3& other, double yaw = 0, bool isAway = false) { return check.obstacle(0, alpha, {at(place), at(other, yaw)}, {0, isAway}, {}).name; };
     const Vec3 away(0.4, 0.4, 1.5);
 
     fill(1.01);
@@ -73,7 +73,7 @@ TEST_CASE("nodes beside the elements of the body count up to half an element fro
     const auto obstacle = [&](double bottom) // between 1.75 m and 2 m
     {
         const Vec3 place(1.5, 1, bottom + 0.5*thickness);
-        return EntryCheck(mesh, halo, {makeLog("log", place)}).obstacle(0, alpha, {at(place)}, {0}, {});
+        return EntryCheck(mesh, halo, {makeLog("log", place)}).obstacle(0, alpha, {at(place)}, {0}, {}).name;
     };
     CHECK(obstacle(1.75 + 0.12) == "liquid (alpha up to 1) in the elements");
     CHECK(obstacle(1.75 + 0.13) == "");
@@ -90,8 +90,8 @@ TEST_CASE("a body in another whose surface is far is seen, whichever of the two 
     crumb.spheres = {{Vec3::Zero(), 0.005}};
     const std::vector<double> alpha(mesh.nNodes, 0.0);
     EntryCheck check(mesh, halo, {makeLog("log", place), crumb});
-    CHECK(check.obstacle(0, alpha, {at(place), at(place)}, {1, 0}, {}) == "body 'crumb'");
-    CHECK(check.obstacle(1, alpha, {at(place), at(place)}, {0, 1}, {}) == "body 'log'");
+    CHECK(check.obstacle(0, alpha, {at(place), at(place)}, {1, 0}, {}).name == "body 'crumb'");
+    CHECK(check.obstacle(1, alpha, {at(place), at(place)}, {0, 1}, {}).name == "body 'log'");
 }
 
 TEST_CASE("a structure that moves is in the way where it is now, fixed ones are the reader's matter")
@@ -108,7 +108,7 @@ TEST_CASE("a structure that moves is in the way where it is now, fixed ones are 
     const auto obstacle = [&](double x)
     {
         gate.pose.position = {x, 1, 1};
-        return check.obstacle(0, alpha, {at(place)}, {0}, {gate});
+        return check.obstacle(0, alpha, {at(place)}, {0}, {gate}).name;
     };
     for (double x = 1.205; x < 1.8; x += 0.01) CHECK(obstacle(x) == "structure 'gate'");
     CHECK(obstacle(1.19 - gate.shape->bounds()[1][0]) == "");
@@ -132,8 +132,8 @@ TEST_CASE("liquid around a body that is thinner than the elements, and far from 
             EntryCheck check(mesh, halo, {stick});
             std::vector<double> alpha(mesh.nNodes, 1.0);
             const std::vector<BodyState> states{at(stick.pose.position)};
-            CHECK(check.obstacle(0, alpha, states, {0}, {}) == "liquid (alpha up to 1) in the elements");
+            CHECK(check.obstacle(0, alpha, states, {0}, {}).name == "liquid (alpha up to 1) in the elements");
             for (int i = 0; i < mesh.nNodes; ++i) alpha[i] = mesh.spacePoint(i)[2] < 0.99;
-            CHECK(check.obstacle(0, alpha, states, {0}, {}) == "");
+            CHECK(check.obstacle(0, alpha, states, {0}, {}).name == "");
         }
 }
