@@ -15,6 +15,7 @@
 #include "foam/cellCost.H"
 #include "foam/dictionaryChecks.H"
 #include "foam/fieldIO.H"
+#include "foam/laterTimes.H"
 #include "foam/otherInput.H"
 #include "foam/patchReport.H"
 #include "foam/startReport.H"
@@ -256,6 +257,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     PhaseTimers timers;
     if (task == Task::Check)
     {
+        warnLaterTimes(runTime);
         const bool isContinued = RunOutput(runTime, adapter.mesh, halo, controls.fluid, bodies, timers).checkStart();
         checkThinStructures(adapter, halo, bodies);
         FlowState state;
@@ -274,6 +276,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         bodies.bodies.empty() ? nullptr : &dem, timers);
     RunOutput output(runTime, adapter.mesh, halo, controls.fluid, bodies, timers);
     start(step, output, fields, runTime, report);
+    warnLaterTimes(runTime);
     if (!bodies.structures.empty())
         reportThinStructures(adapter.mesh, step.fluid().graph(), halo, *step.cover(), bodies, step.scene().solids().size());
     reportPatches(controls, adapter, halo, boundary, step.fluid().state(), step.cover(), runTime.value());

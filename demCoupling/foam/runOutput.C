@@ -64,6 +64,15 @@ RunOutput::RunOutput(const Foam::Time& runTime, const SimplexMesh& mesh, const H
     nStructures_(int(bodies.structures.size())), firstStart_(runTime.value()), thinnestBody_(thinnestBody(bodies))
 {}
 
+/// A run that goes on has a record of the time from which it does: without one the records before are those of another run, or some are lost.
+void RunOutput::warnHole(double lastRecord) const
+{
+    const double now = runTime_.value();
+    if (!std::isfinite(lastRecord) || now - lastRecord < 1e-6*std::abs(now)) return;
+    Foam::Info<< text("Warning: the records of postProcessing/flotsam/bodies.h5 end at ", lastRecord, " s, and the run goes on from ", now,
+        " s: between them there are none. Are they of another run?\n    Then rename the file before the start, or remove the times that are not of its run\n").c_str() << Foam::endl;
+}
+
 void RunOutput::begin(const CoupledStep& step)
 {
     last_ = step.records();
@@ -77,6 +86,7 @@ void RunOutput::begin(const CoupledStep& step)
         const Foam::fileName folder = runTime_.globalPath()/"postProcessing"/"flotsam";
         Foam::mkDir(folder);
         history_ = std::make_unique<BodyHistory>(folder/"bodies.h5", members_, runTime_.value());
+        warnHole(history_->lastTime());
         history_->append(runTime_.value(), step.records(), scalars(0));
         if (!members_.empty()) history_->writeSurface(runTime_.value(), step.records());
     }

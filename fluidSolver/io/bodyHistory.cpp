@@ -291,6 +291,8 @@ BodyHistory::~BodyHistory()
     }
 }
 
+double BodyHistory::lastTime() const { return impl_->lastTime; }
+
 void BodyHistory::append(double time, const std::vector<BodyRecord>& records,
     const std::vector<std::pair<std::string, double>>& scalars)
 {

@@ -46,6 +46,8 @@ public:
     BodyHistory(const std::string& file, const std::vector<HistoryMember>& members, double startTime);
     ~BodyHistory();
 
+    double lastTime() const; ///< of the last record; -infinity: there is none
+
     /// Appends one time to every member. Scalars (dt, mass error, ...) go to /run/<name>, NaN where one was not given.
     /// A time that is not later than the last record is ignored: a restart repeats the state it starts from.
     void append(double time, const std::vector<BodyRecord>& records,

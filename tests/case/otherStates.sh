@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Stored states that do not fit: computed with other fluids (goes on, with a warning that names both values), cut off (refused with what can be done
-# without it, which then works; nothing is changed before).
+# without it, which then works; nothing is changed before); of an earlier run, ahead of the start (goes on, with a warning before and, where it was continued, after).
 . "$(dirname "$0")/support.sh"
 mkdir -p "$work" && cd "$work" || exit
 rm -rf ./*
@@ -82,3 +82,22 @@ another stopped 'sed -i "s/velocity (0 0.5 0)/velocity (0 0 0)/; s/position (0.0
 another shared 'rm 0.002/flotsamState.h5; sed -i "s/velocity (0 0.5 0)/velocity (0 1 0)/; s/position (0.06 -0.05 /position (0.06 -0.051 /" constant/bodies' ''
 another jumpingShared 'rm 0.002/flotsamState.h5; sed -i "s/velocity (0 0.5 0)/velocity (0 1 0)/" constant/bodies' "'gate' would jump"
 another heldAgain 'sed -i "s/density /releaseTime 0.003; density /" constant/bodies' 'body bar, which moves in it, is stopped and held until its releaseTime, 0.003 s'
+
+# Once more from the beginning, over the results of a run that went further, and stopped before it has come so far: latestTime is then of the earlier run. Both are told; a run
+# that goes on as it should is told nothing.
+cp -r bar again
+setEntry again/system/controlDict startFrom startTime
+setEntry again/system/controlDict endTime 0.001
+for option in -dry-run -noFunctionObjects; do
+    (cd again && quietly flotsamFoam $option)
+    grep -q "before the start:  foamListTimes -rm -time '0.002:'" again/log.flotsamFoam || fail "results ahead of the start ($option): no word"
+done
+setEntry again/system/controlDict startFrom latestTime
+setEntry again/system/controlDict endTime 0.004
+(cd again && quietly flotsamFoam) || exit
+grep -q 'bodies.h5 end at 0.001 s, and the run goes on from 0.002 s' again/log.flotsamFoam || fail "a state of another run than the records: no word"
+(cd bar && quietly flotsamFoam) || exit
+grep 'Warning: ' bar/log.flotsamFoam && fail "a run that goes on as it should: a warning"
+setEntry two/system/controlDict startFrom startTime
+(cd two && quietly mpirun -np 2 flotsamFoam -parallel -dry-run) || exit
+grep -q "before the start:  foamListTimes -processor -rm -time '0.002:'" two/log.mpirun || fail "results ahead of the start on two processes: no word"
