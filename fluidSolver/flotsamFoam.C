@@ -265,7 +265,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         if (!isContinued) report(state);
         reportEnded(runTime);
         checkInflow(adapter, halo, boundary, state, nullptr, runTime.value());
-        reportPatches(controls, adapter, halo, boundary, state, nullptr, runTime.value());
+        reportPatches(controls, adapter, halo, boundary, state, nullptr, runTime.value(), runTime.endTime().value());
         writeNumerics(Foam::Info, controls.numerics);
     }
     if (task == Task::WeighCells) weighCells(mesh, adapter, halo, bodies);
@@ -279,7 +279,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     warnLaterTimes(runTime);
     if (!bodies.structures.empty())
         reportThinStructures(adapter.mesh, step.fluid().graph(), halo, *step.cover(), bodies, step.scene().solids().size());
-    reportPatches(controls, adapter, halo, boundary, step.fluid().state(), step.cover(), runTime.value());
+    reportPatches(controls, adapter, halo, boundary, step.fluid().state(), step.cover(), runTime.value(), runTime.endTime().value());
     WriteTimes writeTimes(runTime, output.firstStart(), output.lastStep(), controls.time.adjustTimeStep ? motionJumps(bodies) : std::vector<double>());
     output.begin(step);
     WallForceFiles forceFiles(runTime, adapter.mesh, wallForces);

@@ -13,6 +13,7 @@ namespace
 {
 
 constexpr double muchWind = 2;      // of the pressure difference that a free overfall makes
+constexpr int nLooksAhead = 20;     // at tables of pressures
 constexpr double muchGas = 0.1;     // of what enters: where a surface is smeared over elements some enters below it
 
 void say(const std::string& line) { Foam::Info << line.c_str() << Foam::nl; }
@@ -34,17 +35,44 @@ void reportLevel(const CaseControls& controls, const BoundaryPatch& patch, doubl
                                                            : text("pressure of ", controls.liquidName, " outside up to a height of ", level, " m")));
 }
 
-void reportWind(const CaseControls& controls, const GasPressures& gas)
+bool isWindy(const GasPressures& gas) { return gas.spread > muchWind*gas.ofHeight; }
+
+void reportWind(const FluidProperties& fluid, const GasPressures& gas)
 {
-    if (gas.spread <= muchWind*gas.ofHeight || controls.fluid.rhoGas <= 0) return;
-    say(text("Warning: the pressures that patches give to gas differ by ", gas.spread, " Pa from those of gas at rest: it will blow with up to ", std::sqrt(2*gas.spread/controls.fluid.rhoGas),
+    say(text("Warning: the pressures that patches give to gas differ by ", gas.spread, " Pa from those of gas at rest: it will blow with up to ", std::sqrt(2*gas.spread/fluid.rhoGas),
         " m/s. Where that is not meant: constant/hRef is a height within the mesh (patches with p_rgh and with prghTotalPressure, a full pressure, fit together only then), and p0 is the same everywhere"));
+}
+
+void reportLaterWind(const FluidProperties& fluid, const GasPressures& gas, double time)
+{
+    say(text("Warning: at t = ", time, " s the pressures that patches give to gas will differ by ", gas.spread, " Pa from those of gas at rest: it will blow with up to ", std::sqrt(2*gas.spread/fluid.rhoGas),
+        " m/s. A pressure that changes (a level outside that rises or falls) must act on liquid alone: through a patch of its own below the lowest level, with a wall above it"
+        " (docs/dictionaries.md, Outflow with a water level that changes)"));
+}
+
+/// At the start, else at the worst of some later times: pressures may be tables.
+void checkWind(const CaseControls& controls, const SimplexMesh& mesh, const Halo& halo, const std::vector<BoundaryPatch>& patches, double time, double endTime)
+{
+    const FluidProperties& fluid = controls.fluid;
+    if (fluid.rhoGas <= 0) return;
+    GasPressures worst = gasPressures(mesh, halo, patches, fluid, time);
+    if (isWindy(worst)) return reportWind(fluid, worst);
+    double when = time;
+    for (int k = 1; k <= nLooksAhead; ++k)
+    {
+        const double later = time + k*(endTime - time)/nLooksAhead;
+        const GasPressures gas = gasPressures(mesh, halo, patches, fluid, later);
+        if (gas.spread <= worst.spread) continue;
+        worst = gas;
+        when = later;
+    }
+    if (isWindy(worst)) reportLaterWind(fluid, worst, when);
 }
 
 } // namespace
 
 void reportPatches(const CaseControls& controls, const MeshAdapter& adapter, const Halo& halo, const std::vector<BoundaryPatch>& patches, const FlowState& state,
-    const Cover* cover, double time)
+    const Cover* cover, double time, double endTime)
 {
     const SimplexMesh& mesh = adapter.mesh;
     for (const BoundaryPatch& patch : patches)
@@ -61,7 +89,7 @@ void reportPatches(const CaseControls& controls, const MeshAdapter& adapter, con
         const std::vector<double> levels = outsideLevels(mesh, halo, patches, controls.fluid, time);
         for (std::size_t p = 0; p < patches.size(); ++p)
             if (patches[p].pressure != BoundaryPatch::Pressure::Natural) reportLevel(controls, patches[p], levels[p]);
-        reportWind(controls, gasPressures(mesh, halo, patches, controls.fluid, time));
+        checkWind(controls, mesh, halo, patches, time, endTime);
     }
     Foam::Info << Foam::endl;
 }

@@ -32,11 +32,11 @@ struct Channel : BoundaryScene
         for (std::size_t p = 0; p < patches.size(); ++p) if (patches[p].name == name) return all[p];
         return std::nan("");
     }
-    std::string report() const
+    std::string report(double endTime = 0) const
     {
         std::ostringstream out;
         auto* screen = std::cout.rdbuf(out.rdbuf());
-        reportPatches(controls, adapter, halo, patches, state, nullptr, 0);
+        reportPatches(controls, adapter, halo, patches, state, nullptr, 0, endTime);
         std::cout.rdbuf(screen);
         return out.str();
     }
@@ -100,4 +100,15 @@ TEST_CASE("gas that the given pressures blow through the mesh is warned of, not 
     CHECK(!has(top, "Warning"));
     CHECK(has(far, "Warning: the pressures that patches give to gas differ by 50 Pa"));   // 1 kg/m^3, 10 m/s^2, of 4 m below the bed and of 1 m of the outlet
     CHECK(has(far, "it will blow with up to 10 m/s"));
+}
+
+TEST_CASE("a table that will blow the gas through the mesh is warned of, for the time of its largest pressure")
+{
+    const Channel rising({pressureOfOutlet("type uniformFixedValue; uniformValue table ((0 3) (8 803) (16 3)); value uniform 3;")}, 0.55);
+    const std::string before = rising.report(0.1), all = rising.report(16), longRun = rising.report(160);
+    if (!isSerial()) return;
+    CHECK(!has(before, "Warning"));     // 10 Pa, a free overfall's
+    CHECK(has(all, "Warning: at t = 8 s the pressures that patches give to gas will differ by 800 Pa"));
+    CHECK(has(all, "it will blow with up to 40 m/s"));
+    CHECK(has(longRun, "Warning: at t = 8 s"));
 }
