@@ -54,13 +54,19 @@ void addPatch(const SimplexMesh& mesh, const BoundaryPatch& patch, const PatchVa
     }
 }
 
-/// Pressures of a patch whose nodes all hold that phase.
-std::vector<double> pressuresIn(double phase, const SimplexMesh& mesh, const BoundaryPatch& patch, double time)
+/// Values of a patch whose nodes all hold that phase.
+PatchValues valuesIn(double phase, const SimplexMesh& mesh, const BoundaryPatch& patch, double time)
 {
     const std::vector<double> alpha(mesh.nNodes, phase), rest(std::size_t(mesh.nNodes)*mesh.dim, 0.0);
     PatchValues values;
     patch.evaluate({time, rest.data(), alpha.data()}, values);
-    return values.pressure;
+    return values;
+}
+
+/// No gas stands at the patch now (a culvert's end, an opening below the level). Collective.
+bool isBelowLevel(const Halo& halo, const BoundaryPatch& patch, const std::vector<double>& alpha)
+{
+    return !halo.any(std::any_of(patch.nodes.begin(), patch.nodes.end(), [&](int node) { return alpha.empty() || alpha[node] < 0.5; }));
 }
 
 double heightOf(const SimplexMesh& mesh, int node, const std::array<double, 3>& gravity, double strength)
@@ -92,7 +98,7 @@ std::vector<double> outsideLevels(const SimplexMesh& mesh, const Halo& halo, con
     for (std::size_t p = 0; p < patches.size(); ++p)
     {
         if (!givesPressure(patches[p])) continue;
-        const std::vector<double> liquid = pressuresIn(1, mesh, patches[p], time), gas = pressuresIn(0, mesh, patches[p], time);
+        const std::vector<double> liquid = valuesIn(1, mesh, patches[p], time).pressure, gas = valuesIn(0, mesh, patches[p], time).pressure;
         for (std::size_t k = 0; k < liquid.size(); ++k)
         {
             potential[p].push_back((liquid[k] - gas[k])/(fluid.rhoLiquid - fluid.rhoGas));
@@ -115,7 +121,8 @@ std::vector<double> outsideLevels(const SimplexMesh& mesh, const Halo& halo, con
     return levels;
 }
 
-GasPressures gasPressures(const SimplexMesh& mesh, const Halo& halo, const std::vector<BoundaryPatch>& patches, const FluidProperties& fluid, double time)
+GasPressures gasPressures(const SimplexMesh& mesh, const Halo& halo, const std::vector<BoundaryPatch>& patches, const FluidProperties& fluid,
+    const std::vector<double>& alpha, double time)
 {
     const auto& g = fluid.gravity;
     const double strength = std::hypot(g[0], g[1], g[2]), weight = fluid.rhoGas*strength;
@@ -128,11 +135,12 @@ GasPressures gasPressures(const SimplexMesh& mesh, const Halo& halo, const std::
             bottom = std::min(bottom, heightOf(mesh, node, g, strength));
             top = std::max(top, heightOf(mesh, node, g, strength));
         }
-        if (!givesPressure(patch)) continue;
-        const std::vector<double> gas = pressuresIn(0, mesh, patch, time);
-        for (std::size_t k = 0; k < gas.size(); ++k)
+        if (!givesPressure(patch) || isBelowLevel(halo, patch, alpha)) continue;
+        const PatchValues gas = valuesIn(0, mesh, patch, time);
+        for (std::size_t k = 0; k < gas.pressure.size(); ++k)
         {
-            const double overRest = gas[k] + weight*heightOf(mesh, patch.nodes[k], g, strength);
+            if (!gas.alpha.empty() && gas.alpha[k] > 0.5) continue; // liquid enters there
+            const double overRest = gas.pressure[k] + weight*heightOf(mesh, patch.nodes[k], g, strength);
             least = std::min(least, overRest);
             most = std::max(most, overRest);
         }

@@ -27,8 +27,9 @@ PatchInflow prescribedInflow(const SimplexMesh& mesh, const Halo& halo, const Bo
 std::vector<double> outsideLevels(const SimplexMesh& mesh, const Halo& halo, const std::vector<BoundaryPatch>& patches, const FluidProperties& fluid, double time);
 
 /// How much the pressures that patches give to gas differ from those of gas at rest [Pa]; 0 where fewer than two nodes give one. The second: as much as a patch with one pressure all over
-/// (a free overfall) makes in a mesh of this height. Two fluids with gravity. Collective.
+/// (a free overfall) makes in a mesh of this height. Patches below the liquid's level do not count, nor where liquid enters. alpha: at the nodes. Two fluids with gravity. Collective.
 struct GasPressures { double spread = 0, ofHeight = 0; };
-GasPressures gasPressures(const SimplexMesh& mesh, const Halo& halo, const std::vector<BoundaryPatch>& patches, const FluidProperties& fluid, double time);
+GasPressures gasPressures(const SimplexMesh& mesh, const Halo& halo, const std::vector<BoundaryPatch>& patches, const FluidProperties& fluid,
+    const std::vector<double>& alpha, double time);
 
 } // namespace flotsam

@@ -51,17 +51,18 @@ void reportLaterWind(const FluidProperties& fluid, const GasPressures& gas, doub
 }
 
 /// At the start, else at the worst of some later times: pressures may be tables.
-void checkWind(const CaseControls& controls, const SimplexMesh& mesh, const Halo& halo, const std::vector<BoundaryPatch>& patches, double time, double endTime)
+void checkWind(const CaseControls& controls, const SimplexMesh& mesh, const Halo& halo, const std::vector<BoundaryPatch>& patches, const std::vector<double>& alpha,
+    double time, double endTime)
 {
     const FluidProperties& fluid = controls.fluid;
     if (fluid.rhoGas <= 0) return;
-    GasPressures worst = gasPressures(mesh, halo, patches, fluid, time);
+    GasPressures worst = gasPressures(mesh, halo, patches, fluid, alpha, time);
     if (isWindy(worst)) return reportWind(fluid, worst);
     double when = time;
     for (int k = 1; k <= nLooksAhead; ++k)
     {
         const double later = time + k*(endTime - time)/nLooksAhead;
-        const GasPressures gas = gasPressures(mesh, halo, patches, fluid, later);
+        const GasPressures gas = gasPressures(mesh, halo, patches, fluid, alpha, later);
         if (gas.spread <= worst.spread) continue;
         worst = gas;
         when = later;
@@ -89,7 +90,7 @@ void reportPatches(const CaseControls& controls, const MeshAdapter& adapter, con
         const std::vector<double> levels = outsideLevels(mesh, halo, patches, controls.fluid, time);
         for (std::size_t p = 0; p < patches.size(); ++p)
             if (patches[p].pressure != BoundaryPatch::Pressure::Natural) reportLevel(controls, patches[p], levels[p]);
-        checkWind(controls, mesh, halo, patches, time, endTime);
+        checkWind(controls, mesh, halo, patches, state.alpha, time, endTime);
     }
     Foam::Info << Foam::endl;
 }

@@ -112,3 +112,14 @@ TEST_CASE("a table that will blow the gas through the mesh is warned of, for the
     CHECK(has(all, "it will blow with up to 40 m/s"));
     CHECK(has(longRun, "Warning: at t = 8 s"));
 }
+
+TEST_CASE("the pressure of water outside blows no gas: at a patch below the level, and where water enters")
+{
+    const FoamCase::Edit rising = pressureOfOutlet("type uniformFixedValue; uniformValue table ((0 803) (8 1603)); value uniform 3;");
+    const auto reportOf = [&](const char* entering, double level) { return Channel({rising, {"0/alpha.water", "outlet { type zeroGradient; }", entering}}, level).report(8); };
+    const std::string below = reportOf("outlet { type zeroGradient; }", 2), enters = reportOf("outlet { type fixedValue; value uniform 1; }", 0.55), gas = reportOf("outlet { type zeroGradient; }", 0.55);
+    if (!isSerial()) return;
+    CHECK(!has(below, "Warning"));
+    CHECK(!has(enters, "Warning"));
+    CHECK(has(gas, "Warning: the pressures that patches give to gas differ by 800 Pa"));
+}
