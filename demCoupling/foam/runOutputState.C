@@ -60,6 +60,35 @@ void leaveOutPlace(std::vector<double>& rows, const std::vector<double>& other, 
     if (end <= std::min(rows.size(), other.size())) std::copy(other.begin() + (end - place), other.begin() + end, rows.begin() + (end - place));
 }
 
+/// What tells a mesh from others, however many processes share it: number of nodes, means of their coordinates and of the squares of these.
+std::vector<double> meshRecord(const SimplexMesh& mesh, const Halo& halo)
+{
+    std::vector<double> record(1 + 2*mesh.dim, 0.0);
+    for (int i = 0; i < mesh.nOwned; ++i)
+    {
+        for (int d = 0; d < mesh.dim; ++d)
+        {
+            const double x = mesh.x[std::size_t(i)*mesh.dim + d];
+            record[1 + d] += x/mesh.nGlobal;
+            record[1 + mesh.dim + d] += x*x/mesh.nGlobal;
+        }
+    }
+    halo.sum(record.data(), int(record.size()));
+    record[0] = double(mesh.nGlobal);
+    return record;
+}
+
+/// By more than round-off of sums and of files.
+bool isOtherMesh(const std::vector<double>& a, const std::vector<double>& b)
+{
+    if (a.size() != b.size() || a[0] != b[0]) return true;
+    const std::size_t dim = (a.size() - 1)/2;
+    const double square = *std::max_element(b.begin() + 1 + dim, b.end());
+    for (std::size_t k = 1; k < a.size(); ++k)
+        if (std::abs(a[k] - b[k]) > 1e-7*(k > dim ? square : std::sqrt(square))) return true;
+    return false;
+}
+
 } // namespace
 
 /// flotsamFoam wrote this time, but its state was left behind.
@@ -128,6 +157,7 @@ void RunOutput::continueShared(CoupledStep& step, const FoamFields& fields)
 {
     RunState state = files_.readShared();
     takeSums(state);
+    warnOtherMesh(state);
     FlowState start;
     const bool isNodal = fields.readNodes(start);
     if (!isNodal) fields.readStart(start);
@@ -198,6 +228,15 @@ void RunOutput::warnOtherFluid(const RunState& state) const
         << ".\n    The run goes on with those of constant/transportProperties and constant/g as they are now; pressure and loads change with the first step\n" << Foam::endl;
 }
 
+/// OpenFOAM takes fields of any mesh with as many cells.
+void RunOutput::warnOtherMesh(const RunState& state) const
+{
+    const auto stored = state.arrays.find("mesh");
+    if (stored == state.arrays.end() || !isOtherMesh(stored->second, meshRecord(mesh_, halo_))) return;
+    Foam::Info<< "Warning: the mesh is not that of the stored state of time " << runTime_.timeName() << ": its points lie elsewhere. Each keeps its values, as if the water had moved along"
+        << ".\n    Where that is not meant: put the mesh back, or start anew on the new one from mapped fields (mapFields)\n" << Foam::endl;
+}
+
 void RunOutput::checkContinued(const RunState& state) const
 {
     checkMembers(state);
@@ -230,6 +269,7 @@ void RunOutput::writeState(const CoupledStep& step, double timeStep)
     state.arrays.insert(ofProcess.begin(), ofProcess.end());
     state.arrays["forces"] = forces_.values();
     state.arrays["fluid"] = fluidRecord(fluid_);
+    state.arrays["mesh"] = meshRecord(mesh_, halo_);
     state.arrays["members"] = codesOf(members_);
     state.arrays["descriptions"] = descriptions_;
     state.scalars = {{"initialLiquid", mass_.initial}, {"inflow", mass_.inflow}, {"outflow", mass_.outflow}, {"liquid", mass_.final},

@@ -101,3 +101,18 @@ grep 'Warning: ' bar/log.flotsamFoam && fail "a run that goes on as it should: a
 setEntry two/system/controlDict startFrom startTime
 (cd two && quietly mpirun -np 2 flotsamFoam -parallel -dry-run) || exit
 grep -q "before the start:  foamListTimes -processor -rm -time '0.002:'" two/log.mpirun || fail "results ahead of the start on two processes: no word"
+
+# On a mesh of as many cells that lie elsewhere: goes on as OpenFOAM's solvers do, with a warning; on another decomposition of its own without one.
+cp -r bar elsewhere
+setEntry elsewhere/system/controlDict endTime 0.006
+sed -i 's/(80 20 1)/(80 20 1.3)/' elsewhere/system/blockMeshDict
+(cd elsewhere && quietly blockMesh && quietly flotsamFoam) || exit
+grep -q 'the mesh is not that of the stored state of time 0.004' elsewhere/log.flotsamFoam || fail "a state of another mesh: no word"
+cp -r bar shared
+setEntry shared/system/controlDict endTime 0.006
+(cd shared && rm 0.004/flotsamState.h5 && quietly flotsamFoam) || exit
+grep -q 'the mesh is not that' shared/log.flotsamFoam && fail "a state of the same mesh without the process's own: a warning"
+(cd shared && quietly decomposePar -latestTime && setEntry system/controlDict endTime 0.008 && solve 2) || exit
+grep -q 'bodies, contact and sums exactly' shared/log.mpirun || fail "on two processes: the run does not go on"
+grep -q 'the mesh is not that' shared/log.mpirun && fail "a state of the same mesh on two processes: a warning"
+exit 0
