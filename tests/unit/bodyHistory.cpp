@@ -132,6 +132,7 @@ TEST_CASE("a restart cuts off what it will compute again")
     {
         BodyHistory history(file, members(), 5);
         CHECK(read(file, "/run/time").size() == 6);
+        CHECK(history.lastTime() == 5);
         CHECK(read(file, "/surface/time") == std::vector<double>{0, 5});
         history.append(5, recordsAt(500, 2), {});  // the state it starts from: known already
         history.append(5.5, recordsAt(5.5, 2), {{"repeats", 2.0}});
@@ -144,6 +145,8 @@ TEST_CASE("a restart cuts off what it will compute again")
     CHECK(std::isnan(repeats.at(5)));
     CHECK(repeats.at(6) == 2);
     CHECK(std::isnan(dt.at(6)));
+
+    CHECK(BodyHistory(file, members(), 8).lastTime() == 5.5);   // there is nothing from there to 8 s: of another run
 
     CHECK_THROWS_WITH_AS(BodyHistory(file, members(2), 5), doctest::Contains("holds no /bodies/bar1"), std::runtime_error);
     BodyHistory(file, members(2), 0); // nothing in the old file is earlier: a new run
