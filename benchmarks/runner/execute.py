@@ -64,17 +64,19 @@ def _do(folder, command):
 
 def _timed(case, run, folder):
     """User CPU seconds of the solver process alone (no mesh, no start fields; its function objects are counted)."""
-    command = [environment.program(case.root, run.solver, run.rebuilt), *run.options.get("arguments", [])]
+    launcher = run.options.get("launcher", [])      # mpirun and its arguments
+    command = [*launcher, environment.program(case.root, run.solver, run.rebuilt), *run.options.get("arguments", [])]
     log = os.path.join(folder, "log.solver")
     with open(log, "w", encoding="utf-8") as out:
         process = subprocess.Popen(command, cwd=folder, env=environment.settings(), stdout=out, stderr=subprocess.STDOUT)
         isLate = threading.Event()
-        watch = threading.Timer(run.timeLimit, lambda: (isLate.set(), process.kill()))
+        stop = process.terminate if launcher else process.kill     # mpirun kills its processes, after asking them to end
+        watch = threading.Timer(run.timeLimit, lambda: (isLate.set(), stop()))
         watch.start()
         try:
             _, state, usage = os.wait4(process.pid, 0)
         except BaseException:       # the series is stopped: so is its solver
-            process.kill()
+            stop()
             raise
         finally:
             watch.cancel()

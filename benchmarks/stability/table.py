@@ -24,7 +24,8 @@ def screen(row):
     figures = " ".join(f"{name} {shown(row[name])}" for name in FIGURES if name in row)
     text = figures if row["status"] == "ok" else row["status"]
     verdict = row["verdict"] if row["verdict"] == "passed" else row["verdict"].upper()
-    return f"{row['number']!s:>5} {row['family']} ({row['scene']}): {verdict}; {row.get('cpu', 0):.1f} s; {text}"
+    alike = f"; alike {row['alike']}" if "alike" in row else ""
+    return f"{row['number']!s:>5} {row['family']} ({row['scene']}): {verdict}; {row.get('cpu', 0):.1f} s{alike}; {text}"
 
 
 def _order(row):

@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Scenes on several processes: how the mesh is divided, and whether they begin as one process does."""
+import os
+
+import numpy as np
+
+from runner import foam
+from support import files
+
+STEPS = 5
+TOLERANCE = 1e-10       # of the linear solves in the steps compared
+ALIKE = 1e-7            # relative difference allowed after them: residuals of 1e-10 in systems whose scaled condition is some hundreds, 5 steps
+HEADER = "FoamFile {{ version 2.0; format ascii; class {kind}; object {name}; }}\n"
+
+
+def launcher(n):
+    return ["mpirun", "--oversubscribe", "--allow-run-as-root", "-np", str(n)]
+
+
+def division(s, n, method=None):
+    """(word, {path: text}): method of decomposePar and its files, from the scene's seed and number alone."""
+    rng = np.random.RandomState(sum(map(ord, f"{s.seed}/{s.number}/{n}")) * 7919 % 2**32)
+    word = METHODS[rng.randint(len(METHODS))] if method is None else method
+    entries = {"x": f"method simple; coeffs {{ n ({n} 1 1); }}", "y": f"method simple; coeffs {{ n (1 {n} 1); }}", "scotch": "method scotch;"}
+    if word == "z":
+        entries["z"] = f"method simple; coeffs {{ n {'(1 1 %d)' % n if s.dim == 3 else mixed(n)}; }}"
+    made = {}
+    if word not in entries:
+        entries[word] = 'method manual; coeffs { dataFile "cellDecomposition"; }'
+        rows = "\n".join(map(str, CELLS[word](s, n, rng)))
+        made["constant/cellDecomposition"] = HEADER.format(kind="labelList", name="cellDecomposition") + f"{int(np.prod(s.cells))}\n(\n{rows}\n)\n"
+    made["system/decomposeParDict"] = files.dictionary("decomposeParDict", f"numberOfSubdomains {n};\n{entries[word]}")
+    return word, made
+
+
+def mixed(n):
+    """Blocks of a 2D mesh in both directions, where n has factors."""
+    a = next((a for a in (2, 3) if n % a == 0 and n > a), 1)
+    return f"({n // a} {a} 1)" if a > 1 else f"(1 {n} 1)"
+
+
+# --- process of every cell, i fastest, as blockMesh counts them --------------------------------------------------------------
+
+def _indices(s):
+    nx, ny, nz = s.cells
+    k, j, i = np.meshgrid(np.arange(nz), np.arange(ny), np.arange(nx), indexing="ij")
+    return np.stack([a.reshape(-1) for a in (i, j, k)])
+
+
+def slabs(s, n, rng):
+    """Neighbouring slabs one cell thick somewhere in the tank, the rest in front of them and behind."""
+    where = _indices(s)
+    d = rng.randint(2)
+    first = rng.randint(1, max(2, s.cells[d] - n))
+    return np.clip(where[d] - first, 0, n - 1)
+
+
+def crumbs(s, n, rng):
+    """All processes but one have 5 to 20 cells, close together."""
+    where = _indices(s)
+    owner = np.zeros(where.shape[1], int)
+    for rank in range(1, n):
+        centre = np.array([rng.randint(c) for c in s.cells])
+        far = np.abs(where - centre[:, None]).sum(axis=0) + 1000 * (owner > 0)
+        owner[np.argsort(far, kind="stable")[:rng.randint(5, 21)]] = rank
+    return owner
+
+
+def scattered(s, n, rng):
+    """Every cell on any process."""
+    owner = rng.randint(n, size=_indices(s).shape[1])
+    owner[:n] = np.arange(n)
+    return owner
+
+
+def cores(s, n, rng):
+    """All processes but the first have the few cells around the middle of a structure or body, which may cover them all."""
+    where = _indices(s)
+    owner = np.zeros(where.shape[1], int)
+    solids = (s.structures + s.bodies) or [None]
+    for rank in range(1, n):
+        x = solids[(rank - 1) % len(solids)]
+        at = np.array([rng.rand() * c for c in s.cells]) if x is None else x.position * s.length / s.size * s.cells
+        far = np.linalg.norm(where + 0.5 - at[:, None] - 0.01 * rank, axis=0) + 1000 * (owner > 0)
+        owner[np.argsort(far, kind="stable")[:4]] = rank
+    return owner
+
+
+CELLS = {f.__name__: f for f in (slabs, crumbs, scattered, cores)}
+METHODS = ["x", "y", "z", "scotch", *CELLS]
+
+
+# --- comparison --------------------------------------------------------------------------------------------------------------
+
+def beginning(s):
+    """End time of about STEPS steps, the first of which may grow by a fifth from step to step."""
+    return s.firstStep * (STEPS if s.fixedStep else sum(1.2**k for k in range(STEPS)))
+
+
+def difference(root, one, several):
+    """({quantity: relative difference}, steps of each) of two runs of the beginning."""
+    a, b = (foam.history(root, folder) for folder in (one, several))
+    steps = (len(a.time) - 1, len(b.time) - 1)
+    if steps[0] != steps[1]:
+        return {}, steps
+    found = {"time": _apart(a.time, b.time)}
+    for name in a.bodies + a.structures:
+        for quantity in ("position", "velocity", "angularVelocity", "fluidForce"):
+            found[f"{name} {quantity}"] = _apart(getattr(a[name], quantity), getattr(b[name], quantity), _scale(a, quantity))
+    for name in ("U", "p_rgh", "alpha.water", "pointU", "pointP", "pointAlpha"):
+        paths = [os.path.join(folder, _last(folder), name) for folder in (one, several)]
+        if os.path.isfile(paths[0]):
+            found[name] = _apart(*map(foam.field, paths))
+    return found, steps
+
+
+def _scale(history, quantity):
+    """Largest value of all solids: one that hardly moves is not judged by itself."""
+    return max(np.abs(getattr(history[name], quantity)).max() for name in history.bodies + history.structures)
+
+
+def _last(folder):
+    return max((t for t in os.listdir(folder) if t.replace(".", "").replace("e-", "").isdigit()), key=float)
+
+
+def _apart(a, b, scale=0.0):
+    a, b = np.asarray(a), np.asarray(b)
+    scale = max(np.abs(a).max(initial=0), scale, 1e-300)
+    return float(np.abs(a - b).max(initial=0) / scale)
