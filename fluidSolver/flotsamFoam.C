@@ -341,7 +341,9 @@ int main(int argc, char* argv[])
     try
     {
         flotsam::checkFileHandler();
-        flotsam::checkWriteInterval(args.rootPath()/args.globalCaseName()/"system"/Foam::Time::controlDictName);
+        const Foam::dictionary controlDict = flotsam::readControlDict(args.rootPath()/args.globalCaseName()/"system"/Foam::Time::controlDictName);
+        flotsam::checkWriteInterval(controlDict);
+        flotsam::checkLatestTimes(args.path(), controlDict);
         Foam::Time runTime(Foam::Time::controlDictName, args);
         flotsam::checkMesh(runTime);
         Foam::fvMesh mesh

@@ -22,21 +22,15 @@ def division(s, n, method=None):
     rng = np.random.RandomState(sum(map(ord, f"{s.seed}/{s.number}/{n}")) * 7919 % 2**32)
     word = METHODS[rng.randint(len(METHODS))] if method is None else method
     entries = {"x": f"method simple; coeffs {{ n ({n} 1 1); }}", "y": f"method simple; coeffs {{ n (1 {n} 1); }}", "scotch": "method scotch;"}
-    if word == "z":
-        entries["z"] = f"method simple; coeffs {{ n {'(1 1 %d)' % n if s.dim == 3 else mixed(n)}; }}"
+    if s.dim == 3:
+        entries["z"] = f"method simple; coeffs {{ n (1 1 {n}); }}"
     made = {}
     if word not in entries:
         entries[word] = 'method manual; coeffs { dataFile "cellDecomposition"; }'
-        rows = "\n".join(map(str, CELLS[word](s, n, rng)))
+        rows = "\n".join(map(str, CELLS.get(word, blocks)(s, n, rng)))
         made["constant/cellDecomposition"] = HEADER.format(kind="labelList", name="cellDecomposition") + f"{int(np.prod(s.cells))}\n(\n{rows}\n)\n"
     made["system/decomposeParDict"] = files.dictionary("decomposeParDict", f"numberOfSubdomains {n};\n{entries[word]}")
     return word, made
-
-
-def mixed(n):
-    """Blocks of a 2D mesh in both directions, where n has factors."""
-    a = next((a for a in (2, 3) if n % a == 0 and n > a), 1)
-    return f"({n // a} {a} 1)" if a > 1 else f"(1 {n} 1)"
 
 
 # --- process of every cell, i fastest, as blockMesh counts them --------------------------------------------------------------
@@ -45,6 +39,25 @@ def _indices(s):
     nx, ny, nz = s.cells
     k, j, i = np.meshgrid(np.arange(nz), np.arange(ny), np.arange(nx), indexing="ij")
     return np.stack([a.reshape(-1) for a in (i, j, k)])
+
+
+def blocks(s, n, _rng):
+    """Halved along its longest side again and again."""
+    where = _indices(s)
+    owner = np.zeros(where.shape[1], int)
+
+    def divide(cells, first, count):
+        if count == 1:
+            owner[cells] = first
+            return
+        d = np.ptp(where[:, cells], axis=1).argmax()
+        order = cells[np.argsort(where[d, cells], kind="stable")]
+        cut = len(order) * (count // 2) // count
+        divide(order[:cut], first, count // 2)
+        divide(order[cut:], first + count // 2, count - count // 2)
+
+    divide(np.arange(where.shape[1]), 0, n)
+    return owner
 
 
 def slabs(s, n, rng):
@@ -86,15 +99,16 @@ def cores(s, n, rng):
     return owner
 
 
-CELLS = {f.__name__: f for f in (slabs, crumbs, scattered, cores)}
-METHODS = ["x", "y", "z", "scotch", *CELLS]
+CELLS = {f.__name__: f for f in (blocks, slabs, crumbs, scattered, cores)}
+METHODS = ["x", "y", "z", *CELLS]       # drawn; of a 2D mesh z is blocks
 
 
 # --- comparison --------------------------------------------------------------------------------------------------------------
 
 def beginning(s):
     """End time of about STEPS steps, the first of which may grow by a fifth from step to step."""
-    return s.firstStep * (STEPS if s.fixedStep else sum(1.2**k for k in range(STEPS)))
+    first = s.firstStep if s.fixedStep else min(s.firstStep, 0.2 * s.maxCo * s.h / s.speed)
+    return first * (STEPS if s.fixedStep else sum(1.2**k for k in range(STEPS)))
 
 
 def difference(root, one, several):

@@ -328,15 +328,16 @@ TimeControls readTimeControls(const Foam::dictionary& controlDict)
     return time;
 }
 
-void checkWriteInterval(const Foam::fileName& controlDict)
+Foam::dictionary readControlDict(const Foam::fileName& name)
 {
-    Foam::IFstream file(controlDict);
-    if (!file.good()) return;   // Time says what is missing
     Foam::dictionary dict;
-    dict.name() = controlDict;
-    dict.read(file);            // on every rank: code that it may hold (#calc) is compiled together
-    readNumberOr(dict, "writeInterval", 1, positive);
+    dict.name() = name;
+    Foam::IFstream file(name);
+    if (file.good()) dict.read(file);   // on every rank: code that it may hold (#calc) is compiled together. Time says what is missing
+    return dict;
 }
+
+void checkWriteInterval(const Foam::dictionary& controlDict) { readNumberOr(controlDict, "writeInterval", 1, positive); }
 
 CaseControls readCaseControls(const Foam::Time& runTime)
 {

@@ -73,6 +73,24 @@ void checkFileHandler()
         " (OptimisationSwitches)."));
 }
 
+void checkLatestTimes(const Foam::fileName& folder, const Foam::dictionary& controlDict)
+{
+    if (!Foam::Pstream::parRun() || readWordOr(controlDict, "startFrom", "latestTime") != "latestTime") return;
+    const Foam::instantList times = Foam::Time::findTimes(folder); // "constant" is one of them
+    const auto isTime = [](const Foam::instant& t) { return t.name() != "constant"; };
+    const auto last = std::find_if(times.rbegin(), times.rend(), isTime);
+    Foam::List<Foam::instant> latest(Foam::Pstream::nProcs());
+    if (last != times.rend()) latest[Foam::Pstream::myProcNo()] = *last;
+    Foam::Pstream::gatherList(latest);
+    Foam::Pstream::scatterList(latest);
+    const auto byValue = [](const Foam::instant& a, const Foam::instant& b) { return a.name().empty() || (!b.name().empty() && a.value() < b.value()); };
+    const auto [first, end] = std::minmax_element(latest.begin(), latest.end(), byValue);
+    if (first->equal(end->value()) && first->name().empty() == end->name().empty()) return;
+    const auto of = [&](const Foam::instant* t) { return text("processor", t - latest.begin(), first->name().empty() && t == first ? " has none" : text(" has ", std::string(t->name()))); };
+    failOnAll(text("The processor folders have different latest times: ", of(end), ", ", of(first), ". A run that was killed while it wrote leaves them so.\n"
+        "    Remove what not all have (rm -r processor*/", std::string(end->name()), ") to go on from the time before, or decompose anew (decomposePar -force)."));
+}
+
 void checkMesh(const Foam::Time& runTime)
 {
     const bool didThrow = Foam::FatalError.throwExceptions();

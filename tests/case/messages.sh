@@ -184,6 +184,14 @@ echo 'FoamFile { version 2.0; format ascii; class dictionary; object decomposePa
 (cd gathered && quietly decomposePar -fileHandler collated && timeout 60 mpirun -np 2 flotsamFoam -parallel -fileHandler collated) > gathered.log 2>&1 && fail "files that OpenFOAM gathers are accepted"
 [ "$(grep -c 'fileHandler collated is not available: .* allowed: uncollated, masterUncollated' gathered.log)" -eq 1 ] || fail "files that OpenFOAM gathers: not said once"
 
+# a run that was killed while it wrote leaves a time that not every process has
+rm -rf differing && cp -r good differing
+setEntry differing/system/controlDict startFrom latestTime
+(cd differing && quietly decomposePar && cp -r processor0/0 processor0/0.3 && cp -r processor0/0 processor0/0.2 && cp -r processor1/0 processor1/0.2
+    timeout 60 mpirun -np 2 flotsamFoam -parallel) > differing.log 2>&1 && fail "processes with different latest times are accepted"
+[ "$(grep -c 'FOAM FATAL' differing.log)" -eq 1 ] || fail "processes with different latest times: not said once"
+grep -q 'different latest times: processor0 has 0.3, processor1 has 0.2\. ' differing.log && grep -q 'rm -r processor\*/0.3' differing.log || fail "processes with different latest times: no word"
+
 # a gate that comes down on a bar on the bed: said when it happens, and the run that it ends names the gate
 makeFloatingBar clamped
 sed -i -e 's/590/1200/' -e 's/(0 0.001 0.025)/(0 -0.0895 0.025)/' -e '/orientation/d' clamped/constant/bodies
