@@ -25,9 +25,9 @@ class DividedCase(caseFiles.SceneCase):
         made = super()._control()
         if not self.beginning:
             return made
-        s, end = self.scene, ranks.beginning(self.scene)
+        s, (first, end) = self.scene, ranks.beginning(self.scene)
         text = made["system/controlDict"]
-        for entry, value in (("endTime ", end), ("writeInterval ", end), ("maxDeltaT ", s.endTime), ("writePrecision ", 14), ("timePrecision ", 12)):
+        for entry, value in (("deltaT ", first), ("endTime ", end), ("writeInterval ", end), ("maxDeltaT ", s.endTime), ("writePrecision ", 14), ("timePrecision ", 12)):
             text = _replaced(text, entry, value)
         return {**made, "system/controlDict": text}
 
