@@ -58,8 +58,8 @@ private:
     const SimplexMesh& mesh_;
     const Halo& halo_;
     double down_[D] = {};                       // zero: no gravity
-    std::vector<char> isTall_;                  // per owned node; empty: none is on any rank
-    bool areTallKnown_ = false;
+    std::vector<char> isTall_;                  // per owned node, where any is
+    bool areTallKnown_ = false, isAnyTall_ = false; // on any rank: this one may own no node
     FacingElements<D> facing_;
     std::vector<double> atNode_, lastChange_;   // of the band: as if alpha were the value at the node; change of the last repeat
     std::vector<double> before_;                // of the facing nodes: their level before the repeat
@@ -96,7 +96,8 @@ void SurfaceLevel::RepeatsIn<D>::findTall(const DualCells& cells)
     areTallKnown_ = true;
     isTall_.resize(mesh_.nOwned);
     for (int i = 0; i < mesh_.nOwned; ++i) isTall_[i] = 2*cells.halfWidth(i, down_) > tall*std::pow(cells.volume(i), 1./D);
-    if (!halo_.any(std::find(isTall_.begin(), isTall_.end(), 1) != isTall_.end())) std::vector<char>().swap(isTall_);
+    isAnyTall_ = halo_.any(std::find(isTall_.begin(), isTall_.end(), 1) != isTall_.end());
+    if (!isAnyTall_) std::vector<char>().swap(isTall_);
 }
 
 /// Begins with a level surface in tall cells. There the values at the nodes say nothing about its direction: where diagonals alternate, cells of neighbouring columns
@@ -106,7 +107,7 @@ template<int D>
 void SurfaceLevel::RepeatsIn<D>::levelTall(const Arguments& in, std::vector<double>& level)
 {
     if (!areTallKnown_) findTall(in.cells);
-    if (isTall_.empty()) return;
+    if (!isAnyTall_) return;
     facing_.sumGradients(level);
     for (int i : facing_.band())
     {
