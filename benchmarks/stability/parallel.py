@@ -73,7 +73,7 @@ def one(seed, number, options, root):
         if begin["status"] != "ok":
             notes.append(f"beginning: {begin['status']}")
     if not notes:
-        found, steps = ranks.difference(root, *(begin["folder"] for _, _, begin in begun))
+        found, steps = ranks.difference(s, root, *(begin["folder"] for _, _, begin in begun))
         worst = max(found, key=found.get) if found else ""
         row["alike"] = f"{found[worst]:.1e} ({worst})" if found else f"{steps[0]} and {steps[1]} steps"
         if not found or not found[worst] <= ranks.ALIKE:

@@ -113,8 +113,12 @@ def beginning(s):
     return first, first * (STEPS if s.fixedStep else sum(1.2**k for k in range(STEPS)))
 
 
-def difference(root, one, several):
-    """({quantity: relative difference}, steps of each) of two runs of the beginning."""
+def difference(s, root, one, several):
+    """({quantity: relative difference}, steps of each) of two runs of the beginning. Relative to the largest value, and at least to what energy allows: water at rest
+    moves by what the solves leave."""
+    pressure = s.rho[0] * s.speed**2
+    least = {"velocity": s.speed, "U": s.speed, "pointU": s.speed, "p_rgh": pressure, "pointP": pressure,
+             "angularVelocity": s.speed / (s.length * s.size.max()), "fluidForce": pressure * s.h * (s.h if s.dim == 3 else s.size[2])}
     a, b = (foam.history(root, folder) for folder in (one, several))
     steps = (len(a.time) - 1, len(b.time) - 1)
     if steps[0] != steps[1]:
@@ -122,11 +126,11 @@ def difference(root, one, several):
     found = {"time": _apart(a.time, b.time)}
     for name in a.bodies + a.structures:
         for quantity in ("position", "velocity", "angularVelocity", "fluidForce"):
-            found[f"{name} {quantity}"] = _apart(getattr(a[name], quantity), getattr(b[name], quantity), _scale(a, quantity))
+            found[f"{name} {quantity}"] = _apart(getattr(a[name], quantity), getattr(b[name], quantity), max(_scale(a, quantity), least.get(quantity, 0)))
     for name in ("U", "p_rgh", "alpha.water", "pointU", "pointP", "pointAlpha"):
         paths = [os.path.join(folder, _last(folder), name) for folder in (one, several)]
         if os.path.isfile(paths[0]):
-            found[name] = _apart(*map(foam.field, paths))
+            found[name] = _apart(*map(foam.field, paths), least.get(name, 0))
     return found, steps
 
 
