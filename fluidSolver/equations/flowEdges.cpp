@@ -202,13 +202,13 @@ template<int D>
 void FlowEquation::addSolidEdge(const SolidEdges::Element& edge, const Turning<D>& turning, SolidCoupling& coupling)
 {
     constexpr int N = D + 1, B = D + 1, nDof = RigidArm<D>::nDof;
+    const bool isOwned = mesh_.isOwnedElement[edge.element];
     ElementData<D> data;
-    if (!loadElementData<D>(edge.element, mesh_, step_, fluid_, controls_, nodal_, data)) return;
+    if ((!isOwned && edge.element >= mesh_.nInnerElements) || !loadElementData<D>(edge.element, mesh_, step_, fluid_, controls_, nodal_, data)) return;
     const int* nodes = &mesh_.elements[std::size_t(edge.element)*N];
     const Solid& solid = (*step_.solids)[edge.solid];
     const EdgeTerms<D> terms(data, edge);
     addRows(terms, mesh_, graph_, system_);
-    const bool isOwned = mesh_.isOwnedElement[edge.element];
     RigidArm<D> arm[N];
     RigidBlocks<D> rigid;
     for (int a = 0; a < N; ++a)
