@@ -1,18 +1,44 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# parallel.sh 2D|3D: the same results on one process and on two.
+# parallel.sh 2D|3D|few|edge: the same results on one process and on two; few: on four, three of which have one cell each and own no node of the mesh;
+# edge: a box that turns, pairs of cells on either process in turn.
 . "$(dirname "$0")/support.sh"
 mkdir -p "$work" && cd "$work" || exit
 
+# divide CASE RANKS EXPRESSION: process of cell i of n, for awk
+divide() {
+    local n
+    n=$(head -n 20 "$1/constant/polyMesh/owner" | sed -n 's/.*nCells: *\([0-9]*\).*/\1/p')
+    awk -v n="$n" "BEGIN { print \"FoamFile { version 2.0; format ascii; class labelList; object cellDecomposition; }\n\" n \"\n(\"
+        for (i = 0; i < n; ++i) print ($3)
+        print \")\" }" > "$1/constant/cellDecomposition"
+    echo "FoamFile { version 2.0; format ascii; class dictionary; object decomposeParDict; } numberOfSubdomains $2; method manual; manualCoeffs { dataFile cellDecomposition; }" \
+        > "$1/system/decomposeParDict"
+}
+
+tolerance=1e-11 allowed=1e-6 ranks=2
 case $1 in
     2D) makeFloatingBar serial && fixedSteps serial 0.001 0.02 20 ;;
     3D) makeFallingSphere serial && fixedSteps serial 0.005 0.05 10 ;;
-    *) fail "2D or 3D" ;;
+    few)
+        makeFloatingBar serial && fixedSteps serial 0.001 0.005 5
+        ranks=4
+        divide serial 4 'i == int(n/4) ? 1 : i == int(n/2) ? 2 : i == int(3*n/4) ? 3 : 0'
+        ;;
+    edge)
+        makeFloatingBar serial && fixedSteps serial 0.001 0.005 5
+        sed -i '/^bodies$/,$d' serial/constant/bodies
+        echo 'structures { paddle { shape { type box; size (0.02 0.05 0.1); } position (0.001 -0.05 0.025); contact off; motion { type rotating; axis (0 0 1); omega 10; } } }' \
+            >> serial/constant/bodies
+        divide serial 2 'int(i/2) % 2'
+        tolerance=1e-12 allowed=5e-8
+        ;;
+    *) fail "2D, 3D, few or edge" ;;
 esac
 # the linear solves stop at a tolerance: small enough not to be what is compared
-setNumerics serial 'tolerance 1e-11; maxIterations 1000;'
+setNumerics serial "tolerance $tolerance; maxIterations 1000;"
 rm -rf parallel && cp -r serial parallel
 (cd serial && quietly flotsamFoam) || exit
-(cd parallel && quietly decomposePar && quietly mpirun -np 2 flotsamFoam -parallel && quietly reconstructPar) || exit
+(cd parallel && quietly decomposePar && quietly timeout 300 mpirun -np $ranks flotsamFoam -parallel && quietly reconstructPar) || exit
 
-python "$here/compare.py" serial parallel 1e-6
+python "$here/compare.py" serial parallel $allowed
