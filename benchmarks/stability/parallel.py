@@ -73,10 +73,10 @@ def one(seed, number, options, root):
         if begin["status"] != "ok":
             notes.append(f"beginning: {begin['status']}")
     if not notes:
-        found, steps = ranks.difference(s, root, *(begin["folder"] for _, _, begin in begun))
+        found, steps, allowed = ranks.difference(s, root, *(begin["folder"] for _, _, begin in begun))
         worst = max(found, key=found.get) if found else ""
         row["alike"] = f"{found[worst]:.1e} ({worst})" if found else f"{steps[0]} and {steps[1]} steps"
-        if not found or not found[worst] <= ranks.ALIKE:
+        if not found or not found[worst] <= allowed:
             notes.append("beginning " + row["alike"])
     row["verdict"] = "; ".join([v for v in (table.verdict(row),) if v != "passed" or not notes] + notes)
     if row["verdict"] == "passed" and not options.keep and not options.number:

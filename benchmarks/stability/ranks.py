@@ -12,6 +12,7 @@ TOLERANCE = 1e-12       # of the linear solves in the steps compared
 # Largest relative difference that these solves explain. It goes with the tolerance (1e-8, 1e-10, 1e-12 tried): velocities 20 to 100 times the tolerance;
 # pressures, which hold back errors of the velocities' divergence over steps that are short at the start, up to 2e4 times.
 ALIKE = 1e-7
+ALIKE_TOUCHING = 1e-2   # once bodies touch: the repeats of contact end at contactTolerance, 0.01
 HEADER = "FoamFile {{ version 2.0; format ascii; class {kind}; object {name}; }}\n"
 
 
@@ -114,7 +115,7 @@ def beginning(s):
 
 
 def difference(s, root, one, several):
-    """({quantity: relative difference}, steps of each) of two runs of the beginning. Relative to the largest value, and at least to what energy allows: water at rest
+    """({quantity: relative difference}, steps of each, largest difference allowed) of two runs of the beginning. Relative to the largest value, and at least to what energy allows: water at rest
     moves by what the solves leave."""
     pressure = s.rho[0] * s.speed**2
     least = {"velocity": s.speed, "U": s.speed, "pointU": s.speed, "p_rgh": pressure, "pointP": pressure,
@@ -122,7 +123,7 @@ def difference(s, root, one, several):
     a, b = (foam.history(root, folder) for folder in (one, several))
     steps = (len(a.time) - 1, len(b.time) - 1)
     if steps[0] != steps[1]:
-        return {}, steps
+        return {}, steps, ALIKE
     found = {"time": _apart(a.time, b.time)}
     for name in a.bodies + a.structures:
         for quantity in ("position", "velocity", "angularVelocity", "fluidForce"):
@@ -131,7 +132,8 @@ def difference(s, root, one, several):
         paths = [os.path.join(folder, _last(folder), name) for folder in (one, several)]
         if os.path.isfile(paths[0]):
             found[name] = _apart(*map(foam.field, paths), least.get(name, 0))
-    return found, steps
+    isTouching = any(np.any(getattr(a[name], "contactForce")) for name in a.bodies)
+    return found, steps, ALIKE_TOUCHING if isTouching else ALIKE
 
 
 def _scale(history, quantity):
