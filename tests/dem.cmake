@@ -10,6 +10,7 @@ flotsam_test(demFacets unit SOURCES unit/demFacets.cpp ${dem_support} LIBRARIES 
 flotsam_test(demMovers unit SOURCES unit/demMovers.cpp ${dem_support} LIBRARIES flotsam_liggghts)
 flotsam_test(demCorners unit SOURCES unit/demCorners.cpp ${dem_support} LIBRARIES flotsam_liggghts)
 flotsam_test(demMotion verification SOURCES verification/demMotion.cpp ${dem_support} LIBRARIES flotsam_liggghts)
+flotsam_test(demRestraints verification SOURCES verification/demRestraints.cpp ${dem_support} LIBRARIES flotsam_liggghts)
 flotsam_test(demContact verification SOURCES verification/demContact.cpp ${dem_support} LIBRARIES flotsam_liggghts)
 flotsam_test(couplingRecord unit SOURCES unit/couplingRecord.cpp LIBRARIES flotsam_coupling)
 flotsam_test(motionClock unit SOURCES unit/motionClock.cpp LIBRARIES flotsam_dem_core)

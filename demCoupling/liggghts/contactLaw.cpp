@@ -2,6 +2,7 @@
 #include "demCoupling/liggghts/contactLaw.hpp"
 
 #include "demCoupling/liggghts/contactModes.hpp"
+#include "demCoupling/liggghts/restraintStep.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -227,7 +228,7 @@ double contactTimeStep(const DemSetup& setup, const ContactTable& table)
     // velocity Verlet with a dashpot that takes the part d of a velocity, half a step late, is stable for omega^2 dt^2 + 2 d < 4
     const double limit = stabilityMargin * std::sqrt(2.0);
 
-    double step = 1e300;
+    double step = restraintTimeStep(setup);
     const int n = table.size();
     for (size_t b = 0; b < setup.bodies.size(); ++b)
     {

@@ -65,7 +65,7 @@ struct ContactTable
 
 ContactTable makeContactTable(const DemSetup& setup);
 
-/// Sub-step [s] for contacts: accurate where the restitution shall hold, stable for every body landing flat, squeezed from several sides.
+/// Sub-step [s] for contacts and restraints: accurate where the restitution shall hold, stable for every body landing flat, squeezed from several sides.
 double contactTimeStep(const DemSetup& setup, const ContactTable& table);
 /// Makes up for dashpots that see the velocity of half a sub-step [s] ago: (m - c dt/2) x'' = -k x - c x' is what is integrated, its restitution
 /// too small by the order of c dt/m. Afterwards it is the wanted one to second order, as a mean over the instants of landing within a sub-step.

@@ -3,6 +3,7 @@
 
 #include "demCoupling/liggghts/liggghtsCorners.hpp"
 #include "demCoupling/liggghts/liggghtsNear.hpp"
+#include "demCoupling/liggghts/liggghtsRestraints.hpp"
 #include "demCoupling/liggghts/liggghtsTally.hpp"
 #include "demCoupling/liggghts/reach.hpp"
 
@@ -90,6 +91,7 @@ struct LiggghtsEngine::Implementation
         corners.emplace(model, setup);
         model.tally->sample();
         noteMovers();
+        model.restraints->begin(setup, timeStep);
         for (int b = 0; b < model.bodies.count; ++b)
         {
             isHeld[static_cast<size_t>(b)] = model.isGone[static_cast<size_t>(b)];
@@ -144,7 +146,7 @@ struct LiggghtsEngine::Implementation
         {
             const std::vector<BodyState> now = states();
             for (double t = left; t >= std::min(left, shortest); t *= 0.5)
-                if (reach.isFree(now, loads, isHeld, model.isGone, t))
+                if (reach.isFree(now, loads, isHeld, model.isGone, t) && !model.restraints->mayPull(now, loads, isHeld, t))
                     return {t, largestStep};
         }
         return {left < 1.5 * shortest ? left : shortest, timeStep};
@@ -332,8 +334,9 @@ void LiggghtsEngine::moveTo(const std::vector<Pose>& movers, double duration)
     }
 }
 
-bool LiggghtsEngine::hasContact() const { return impl_->model.tally->hasContact(); }
+std::vector<RestraintLoad> LiggghtsEngine::restraintLoads() const { return impl_->model.restraints->loads(); }
 
+bool LiggghtsEngine::hasContact() const { return impl_->model.tally->hasContact(); }
 long LiggghtsEngine::subSteps() const { return impl_->subSteps; }
 
 void LiggghtsEngine::setHeld(const std::vector<char>& isHeld)
@@ -379,6 +382,7 @@ void LiggghtsEngine::setStates(const std::vector<BodyState>& states)
             // contact forces belong to the pose they were computed for
             std::copy_n(model.bodies.drag[b], 3, model.bodies.fcm[b]);
             std::copy_n(model.bodies.hdTorque[b], 3, model.bodies.torque[b]);
+            model.restraints->forget(b);
         }
         if (hasMoved || old.motion.velocity != state.motion.velocity
             || old.motion.angularVelocity != state.motion.angularVelocity)

@@ -2,6 +2,7 @@
 /// LIGGGHTS in process as a rigid-clump engine. The only interface to LIGGGHTS; no LIGGGHTS type is visible here.
 #pragma once
 
+#include "demCoupling/core/restraint.hpp"
 #include "demCoupling/core/rigidBody.hpp"
 
 #include <memory>
@@ -18,11 +19,12 @@ struct DemSetup
     std::vector<BodyDefinition> bodies;
     std::vector<WallDefinition> walls;
     std::vector<MoverDefinition> movers;
+    std::vector<RestraintDefinition> restraints;
     double startTime = 0;               ///< at which the movers begin [s]
     int nMaterials = 1;
     std::vector<ContactLaw> laws;       ///< nMaterials*nMaterials, symmetric
     std::array<Vec3, 2> box;            ///< region that holds everything; grows if a body leaves it
-    double timeStep = 0;                ///< contact sub-step [s]; 0: chosen from stiffness, damping, masses (docs/contact.md)
+    double timeStep = 0;                ///< contact sub-step [s]; 0: chosen from stiffness, damping, masses, restraints (docs/contact.md)
     bool hasContactStepsOnly = false;   ///< contact sub-steps in free flight as well
     double skin = 0;                    ///< neighbour list skin [m]; 0: chosen from the radii of the spheres (docs/contact.md)
 };
@@ -61,7 +63,8 @@ public:
     std::vector<Vec3> peakContactForces() const;
     std::vector<Vec3> peakWallForces() const;
     std::vector<Contact> contacts() const;      ///< movers count as walls behind the walls
-    bool hasContact() const;            ///< any contact force in any sub-step of the last advance
+    std::vector<RestraintLoad> restraintLoads() const;  ///< of the last advance; forces and moments on bodies and movers are part of their contact loads
+    bool hasContact() const;            ///< any force of contact or restraints in any sub-step of the last advance
     long subSteps() const;              ///< of the last advance
 
     /// Where the movers shall be `duration` [s] from now: they go there evenly, whatever touches them. Before every advance() of that duration.
@@ -73,7 +76,7 @@ public:
     /// cost a sub-step 0.3 us each. They must be held; one that comes does so at the place it was at, and stays held.
     void setGone(const std::vector<char>& isGone);
     /// Sets pose and motion (the angular momentum follows from the angular velocity). A body whose pose changes loses
-    /// its contact force of the instant; restore() is the way to go back in time.
+    /// its contact force of the instant, that of its restraints included; restore() is the way to go back in time.
     void setStates(const std::vector<BodyState>& states);
 
     DemState save() const;

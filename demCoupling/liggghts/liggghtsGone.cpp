@@ -3,6 +3,7 @@
 /// pairs are never listed, and outside of the group that the walls look at. They are spread over the box: where all lie at the place they left at,
 /// looking through the bins would cost the square of their number.
 #include "demCoupling/liggghts/liggghtsHistory.hpp"
+#include "demCoupling/liggghts/liggghtsRestraints.hpp"
 
 #include "atom.h"
 #include "group.h"
@@ -91,6 +92,7 @@ void setGone(LiggghtsModel& model, const std::vector<char>& isGone)
     markGone(model, isGone);
     placeSpheres(model);
     rebuildNeighbours(model); // without the pairs of those that are gone
+    model.restraints->beginNew();
 }
 
 void markGone(LiggghtsModel& model, const std::vector<char>& isGone)

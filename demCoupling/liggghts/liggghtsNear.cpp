@@ -3,6 +3,7 @@
 
 #include "geometry/closestPoint.hpp"
 #include "demCoupling/liggghts/liggghtsHistory.hpp"
+#include "demCoupling/liggghts/liggghtsRestraints.hpp"
 
 #include <mpi.h>
 

@@ -16,6 +16,7 @@ namespace flotsam
 
 class ContactTally;
 class NearSpheres;
+class Restraints;
 
 /// LIGGGHTS' arrays of the bodies, [body][component], space frame. Valid until a body is inserted.
 struct BodyArrays
@@ -57,6 +58,7 @@ struct LiggghtsModel
     LAMMPS_NS::Fix* meshWalls = nullptr; ///< contact with all mesh walls; null without them
     LAMMPS_NS::Fix* meshForce = nullptr; ///< per-sphere force of all mesh walls [N]; null without mesh walls
     std::unique_ptr<NearSpheres> near;
+    std::unique_ptr<Restraints> restraints;
     std::vector<WallHandle> walls;
     std::vector<MeshGroup> meshes;
     BodyArrays bodies;

@@ -4,6 +4,7 @@
 /// Exactness rests on three things. The neighbour lists, whose order is the order of all sums, are rebuilt before
 /// the first sub-step of every advance, so that they depend on this state alone. Forces are part of the state: computing
 /// them anew would use full-step instead of half-step velocities. Springs are keyed by tags.
+#include "demCoupling/liggghts/liggghtsRestraints.hpp"
 #include "demCoupling/liggghts/liggghtsTally.hpp"
 
 #include "fix_multisphere.h"
@@ -80,6 +81,7 @@ DemState saveState(const LiggghtsModel& model)
     for (size_t b = 0; b < model.firstCorner.size(); ++b)
         data.insert(data.end(), model.isRetreated.begin() + model.firstCorner[b], model.isRetreated.begin() + model.firstSphere[b + 1]);
     appendHistories(model, data);
+    model.restraints->append(data);
     return state;
 }
 
@@ -104,7 +106,7 @@ void restoreState(LiggghtsModel& model, const DemState& state)
         const double* load = data.data() + bodyEnd + w * wallLength;
         model.tally->wallsNow()[w] = {Vec3(load[0], load[1], load[2]), Vec3(load[3], load[4], load[5])};
     }
-    if (readHistories(model, data, cornerEnd) != data.size())
+    if (model.restraints->read(data, readHistories(model, data, cornerEnd)) != data.size())
         throw DemError("DEM state: more data than this case needs");
 }
 

@@ -3,6 +3,7 @@
 
 #include "demCoupling/liggghts/liggghtsHistory.hpp"
 #include "demCoupling/liggghts/liggghtsNear.hpp"
+#include "demCoupling/liggghts/liggghtsRestraints.hpp"
 
 #include "fix_mesh_surface.h"
 #include "fix_multisphere.h"
@@ -66,6 +67,7 @@ Load meshLoad(LAMMPS_NS::FixMeshSurface& mesh)
 void ContactTally::install(LiggghtsModel& model, const DemSetup& setup)
 {
     model.near = std::make_unique<NearSpheres>(model, setup);
+    model.restraints = std::make_unique<Restraints>(model, setup);
     model.tally = installFix<ContactTally>(model, "tally", model, setup);
 }
 
@@ -139,6 +141,7 @@ void ContactTally::post_force(int)
 void ContactTally::pre_final_integrate()
 {
     takeForces(model_, model_.near->active());
+    model_.restraints->pull(lmp->update->dt);
     hideSpheres();
 }
 
@@ -291,6 +294,7 @@ void ContactTally::start()
     bodySum_.assign(bodyNow_.size(), {});
     wallSum_.assign(wallNow_.size(), {});
     clearPeaks();
+    model_.restraints->start();
 }
 
 void ContactTally::startSteps(double step)
@@ -303,6 +307,7 @@ void ContactTally::startSteps(double step)
         hasContact_ = hasContact_ || !load.force.isZero(0);
     if (hasContact_)
         add(0.5 * step_);
+    model_.restraints->startSteps(step_);
 }
 
 void ContactTally::end_of_step()
@@ -317,6 +322,7 @@ void ContactTally::end_of_step()
         keepLargest(bodyNow_, bodyPeak_);
         keepLargest(wallNow_, wallPeak_);
     }
+    model_.restraints->endStep(step_);
 }
 
 void ContactTally::finishSteps()
@@ -324,6 +330,7 @@ void ContactTally::finishSteps()
     damping_.finishSteps();
     if (hasContact_)
         add(-0.5 * step_); // the last force is used with its second half only
+    model_.restraints->finishSteps(step_);
     step_ = 0;
 }
 
@@ -333,6 +340,7 @@ void ContactTally::finish(double duration)
         bodyMean_[b] = {bodySum_[b].force / duration, bodySum_[b].moment / duration};
     for (size_t w = 0; w < wallSum_.size(); ++w)
         wallMean_[w] = {wallSum_[w].force / duration, wallSum_[w].moment / duration};
+    model_.restraints->finish(duration);
 }
 
 } // namespace flotsam

@@ -45,7 +45,22 @@ double largestTurn(const BodyState& state, const Load& load, double leastInertia
                     state.motion.angularVelocity.norm() * duration + 0.5 * change * duration * duration);
 }
 
+struct Way { double shift, turn; };
+
+Way wayOf(const BodyDefinition& body, const BodyState& state, const Load& load, double duration)
+{
+    return {state.motion.velocity.norm() * duration + 0.5 * load.force.norm() / body.mass * duration * duration,
+            largestTurn(state, load, body.principalInertia.minCoeff(), duration)};
+}
+
+double wayOf(const Way& way, const Vec3& place) { return way.shift + std::min(way.turn, 2.0) * place.norm(); } // at most the diameter
+
 } // namespace
+
+double largestWay(const BodyDefinition& body, const Vec3& place, const BodyState& state, const Load& load, double duration)
+{
+    return wayOf(wayOf(body, state, load, duration), place);
+}
 
 TriangleBoxes::TriangleBoxes(const TriSurface& surface)
 {
@@ -117,12 +132,7 @@ ReachCheck::ReachCheck(const std::vector<BodyDefinition>& bodies, const std::vec
 void ReachCheck::move(size_t body, const BodyState& state, const Load& load, bool isHeld, double duration)
 {
     const BodyDefinition& definition = bodies_[body];
-    double shift = 0, turn = 0;
-    if (!isHeld)
-    {
-        shift = state.motion.velocity.norm() * duration + 0.5 * load.force.norm() / definition.mass * duration * duration;
-        turn = largestTurn(state, load, definition.principalInertia.minCoeff(), duration);
-    }
+    const Way way = isHeld ? Way {0, 0} : wayOf(definition, state, load, duration);
     Moving& m = moving_[body];
     m.lower.setConstant(1e300);
     m.upper.setConstant(-1e300);
@@ -130,7 +140,7 @@ void ReachCheck::move(size_t body, const BodyState& state, const Load& load, boo
     const auto place = [&](const SurfaceSphere& local, SurfaceSphere& sphere)
     {
         sphere.centre = state.pose.position + rotation * local.centre;
-        sphere.radius = local.radius + shift + std::min(turn, 2.0) * local.centre.norm(); // at most the diameter
+        sphere.radius = local.radius + wayOf(way, local.centre);
         m.lower = m.lower.cwiseMin(sphere.centre - Vec3::Constant(sphere.radius));
         m.upper = m.upper.cwiseMax(sphere.centre + Vec3::Constant(sphere.radius));
     };

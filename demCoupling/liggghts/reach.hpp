@@ -26,6 +26,9 @@ private:
     std::vector<Branch> tree_;
 };
 
+/// Upper bound of the way [m] that a point of a body goes under a constant load; place: in the frame of the body.
+double largestWay(const BodyDefinition& body, const Vec3& place, const BodyState& state, const Load& load, double duration);
+
 class ReachCheck
 {
 public:
