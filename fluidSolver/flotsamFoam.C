@@ -7,6 +7,7 @@
 #include "demCoupling/foam/bodiesReader.H"
 #include "demCoupling/foam/bodyChecks.H"
 #include "demCoupling/foam/continuedMotion.H"
+#include "demCoupling/foam/restraintReader.H"
 #include "demCoupling/foam/runOutput.H"
 #include "demCoupling/foam/runScene.H"
 #include "demCoupling/foam/structureChecks.H"
@@ -247,6 +248,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     const BodiesInput bodies = readBodies(mesh, adapter.mesh, halo, gravity);
     checkEntries(bodies, controls.fluid);
     reportBodies(bodies, controls.fluid, mesh.time().endTime().value());
+    reportRestraints(bodies, runTime.value(), runTime.deltaTValue());
     for (BoundaryPatch& patch : boundary)
         patch.stopsBodies = std::find(bodies.wallPatches.begin(), bodies.wallPatches.end(), patch.name) != bodies.wallPatches.end();
     takeBodyWalls(adapter.mesh, boundary);

@@ -22,7 +22,7 @@ fluidSolver/foam        fluidSolver/core fluidSolver/algebra fluidSolver/geometr
 demCoupling/core        fluidSolver/core fluidSolver/geometry
 demCoupling/liggghts    demCoupling/core fluidSolver/core fluidSolver/geometry
 demCoupling/coupling    demCoupling/core demCoupling/liggghts fluidSolver/core fluidSolver/algebra fluidSolver/geometry fluidSolver/equations fluidSolver/io
-demCoupling/foam        demCoupling/core demCoupling/coupling fluidSolver/core fluidSolver/algebra fluidSolver/geometry fluidSolver/io fluidSolver/foam
+demCoupling/foam        demCoupling/core demCoupling/coupling demCoupling/liggghts fluidSolver/core fluidSolver/algebra fluidSolver/geometry fluidSolver/io fluidSolver/foam
 tests                   *
 benchmarks              *
 '

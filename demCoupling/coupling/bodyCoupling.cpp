@@ -45,6 +45,7 @@ BodyCoupling::BodyCoupling(const DemSetup& setup, const CouplingControls& contro
         engine_ = std::make_unique<LiggghtsEngine>(setup_);
         demTimeStep_ = engine_->timeStep();
         result_ = engine_->states();
+        touch_.restraints = engine_->restraintLoads();
     });
     MPI_Bcast(&demTimeStep_, 1, MPI_DOUBLE, 0, comm_);
     shareResults();
@@ -99,6 +100,7 @@ void BodyCoupling::runEngine(double duration, const std::vector<Load>& loads)
         touch_.peaks = engine_->peakContactForces();
         touch_.wallPeaks = engine_->peakWallForces();
         touch_.take(engine_->contacts(), setup_);
+        touch_.restraints = engine_->restraintLoads();
         if (!engine_->hasContact()) newContact_.assign(newContact_.size(), Load()); // round-off of a free flight
     });
     shareResults();
@@ -111,9 +113,7 @@ void BodyCoupling::begin(double time, double dt, double far)
     guessAtStart_ = contactGuess();
     factorsAtStart_ = inertia_.factors();
     touchAtStart_ = touch_;
-    springSpeed_ = 0;
-    for (int b = 0; b < nBodies(); ++b)
-        springSpeed_ = std::max(springSpeed_, std::sqrt(touch_.largestOverlap*contact_[b].force.norm()/setup_.bodies[b].mass));
+    springSpeed_ = largestSpringSpeed();
     std::vector<char> held(isHeld_);
     for (int b = 0; b < nBodies(); ++b) held[b] = !isDue(b, time) || !isThere(b);
     isAtStart_ = true;
@@ -122,6 +122,21 @@ void BodyCoupling::begin(double time, double dt, double far)
     guarded([&] { saved_ = engine_->save(); });
     for (int b = 0; b < nBodies(); ++b) predicted_[b] = isHeld_[b] ? states_[b] : drifted(b);
     if (!check_.strayBody(states_, predicted_, far).empty()) predictContacts();
+}
+
+double BodyCoupling::largestSpringSpeed() const
+{
+    double speed = 0;
+    for (int b = 0; b < nBodies(); ++b)
+        speed = std::max(speed, std::sqrt(touch_.largestOverlap*contact_[b].force.norm()/setup_.bodies[b].mass));
+    for (std::size_t i = 0; i < setup_.restraints.size(); ++i)
+    {
+        const RestraintDefinition& r = setup_.restraints[i];
+        const RestraintLoad& now = touch_.restraints[i];
+        for (const RestraintEnd* end : {&r.end, &r.other})
+            if (end->body >= 0 && !now.isBroken) speed = std::max(speed, std::abs(r.stretch(now.length))*std::sqrt(r.stiffness/setup_.bodies[end->body].mass));
+    }
+    return speed;
 }
 
 /// What moves as prescribed, in the coming step.
@@ -318,6 +333,7 @@ void BodyCoupling::restore(const std::vector<double>& data)
         engine_->setHeld(isHeld_);
         engine_->restore(DemState{std::vector<double>(data.begin(), data.begin() + std::ptrdiff_t(engineSize))});
         result_ = engine_->states();
+        touch_.restraints = engine_->restraintLoads();
         newContact_.assign(newContact_.size(), Load());
     });
     shareResults();

@@ -63,6 +63,7 @@ public:
     const std::vector<Vec3>& wallPeaks() const { return touch_.wallPeaks; }
     const std::vector<int>& contactCounts() const { return touch_.counts; }
     const std::vector<int>& wallContactCounts() const { return touch_.wallCounts; } ///< bodies that touch each wall
+    const std::vector<RestraintLoad>& restraintLoads() const { return touch_.restraints; } ///< of the last DEM run; part of the contact loads
     bool isHeld(int body) const { return isHeld_[body]; }
     /// Of the step's mean fluid load and weight, lastLoads() the rest; share: Fluid::newLoadShare(). In its first step a body that was let go has only the new.
     double newLoadShare(int body, double share) const { return isJustReleased_[body] ? 1 : share; }
@@ -97,6 +98,7 @@ private:
     void shareResults();
     CouplingRecord record() const;
     BodyState drifted(int body) const;
+    double largestSpringSpeed() const;
     void predictContacts();
     void hold(const std::vector<char>& isHeld);
     void moveTo(double time);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// What touches at the end of an engine's run: numbers of contacts, loads on walls, the deepest contact.
+/// What touches at the end of an engine's run: numbers of contacts, loads on walls, the deepest contact; what restraints have done in it.
 #pragma once
 
 #include "demCoupling/coupling/numberArchive.hpp"
@@ -15,13 +15,14 @@ struct ContactSummary
     std::vector<Load> wallLoads;        ///< walls, then movers: time means of the run, moments about the origin of space
     std::vector<Vec3> peaks, wallPeaks; ///< contact force in the sub-step in which it was largest: of bodies; of walls, then movers [N]
     std::vector<int> counts, wallCounts; ///< contacts of each body; bodies that touch each wall
+    std::vector<RestraintLoad> restraints;
     double largestOverlap = 0;          ///< of DEM surfaces [m]
     int deepestBody = -1, deepestOther = 0, pressing = -1; ///< as in Contact; a mover. Not stored: they only serve messages
 
     ContactSummary() = default;
     explicit ContactSummary(const DemSetup& setup);
 
-    /// All but the walls' loads.
+    /// All but the loads of walls and restraints.
     void take(const std::vector<Contact>& contacts, const DemSetup& setup);
 
     /// Names of the pair that overlaps most, empty when nothing does and after a restart.
@@ -35,8 +36,8 @@ struct ContactSummary
 template <class Archive, class Summary>
 void passSummary(Archive& archive, Summary& summary)
 {
-    passAll(archive, summary.wallLoads, summary.peaks, summary.wallPeaks, summary.counts, summary.wallCounts, summary.largestOverlap,
-        summary.deepestBody, summary.deepestOther, summary.pressing);
+    passAll(archive, summary.wallLoads, summary.peaks, summary.wallPeaks, summary.counts, summary.wallCounts, summary.restraints,
+        summary.largestOverlap, summary.deepestBody, summary.deepestOther, summary.pressing);
 }
 
 } // namespace flotsam

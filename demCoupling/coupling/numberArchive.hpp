@@ -2,6 +2,7 @@
 /// Bodies' states as plain numbers in a fixed order: what is written and what is read is said once, by pass().
 #pragma once
 
+#include "demCoupling/core/restraint.hpp"
 #include "demCoupling/core/rigidBody.hpp"
 
 #include <type_traits>
@@ -48,6 +49,8 @@ void pass(Archive& archive, T& value)
         for (int d = 0; d < 3; ++d) archive.number(value[d]);
     else if constexpr (std::is_same_v<Type, Load>)
         passAll(archive, value.force, value.moment);
+    else if constexpr (std::is_same_v<Type, RestraintLoad>)
+        passAll(archive, value.force, value.tension, value.largest, value.length, value.isBroken);
     else if constexpr (std::is_same_v<Type, InertiaFactor>)
         passAll(archive, value.mass, value.turn);
     else if constexpr (std::is_same_v<Type, BodyState>)

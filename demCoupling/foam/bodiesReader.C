@@ -5,6 +5,7 @@
 #include "demCoupling/foam/meshWalls.H"
 #include "demCoupling/foam/movingStructures.H"
 #include "demCoupling/foam/repeatedGroups.hpp"
+#include "demCoupling/foam/restraintReader.H"
 #include "demCoupling/foam/structureChecks.H"
 #include "demCoupling/foam/wallTriangles.H"
 #include "foam/dictionaryChecks.H"
@@ -224,7 +225,7 @@ std::string contentsOf(const Foam::fileName& file)
 void checkNamesDiffer(const Foam::IOdictionary& dict)
 {
     if (dict.empty()) return; // no file
-    const auto repeated = repeatedGroups(contentsOf(dict.filePath()), {"structures", "bodies"});
+    const auto repeated = repeatedGroups(contentsOf(dict.filePath()), {"structures", "bodies", "restraints"});
     if (repeated.empty()) return;
     const RepeatedGroup& group = repeated.front();
     failIn(dict, text("'", group.name, "' stands twice in '", group.section, "', in lines ", group.firstLine, " and ", group.line,
@@ -267,7 +268,7 @@ void reportOpenWalls(const Foam::polyMesh& mesh, const std::vector<std::string>&
 
 BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh, const SimplexMesh& simplexMesh, const Halo& halo, const Vec3& gravity)
 {
-    checkKeywords(dict, {"materials", "contact", "wallMaterial", "wallPatches", "parameters", "structures", "bodies"});
+    checkKeywords(dict, {"materials", "contact", "wallMaterial", "wallPatches", "parameters", "structures", "bodies", "restraints"});
     BodiesInput input;
     input.box = meshBounds(mesh);
     MaterialTable table = readMaterials(dict);
@@ -284,6 +285,7 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
     if (groups.empty())
     {
         for (StructureDefinition& s : input.structures) s.wall = -1;
+        readRestraints(dict, frame, input); // refuses any
         return input;
     }
     const auto patches = input.wallPatches = wallPatches(dict, mesh);
@@ -313,6 +315,7 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
             input.bodies.push_back(std::move(body));
         }
     checkMembersDiffer(dict, input.bodies, "bodies", [](const BodyDefinition& b) { return b.name; });
+    input.restraints = readRestraints(dict, frame, input);
     return input;
 }
 

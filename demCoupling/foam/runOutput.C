@@ -60,7 +60,7 @@ RunOutput::RunOutput(const Foam::Time& runTime, const SimplexMesh& mesh, const H
     const PhaseTimers& timers)
 :   runTime_(runTime), mesh_(mesh), halo_(halo), fluid_(fluid), bodies_(bodies), timers_(timers), members_(makeMembers(bodies)),
     descriptions_(describe(bodies)),
-    files_(runTime, mesh, halo), log_(timers, runTime.value(), runTime.endTime().value()), forces_(structureNames(bodies)),
+    files_(runTime, mesh, halo), log_(timers, runTime.value(), runTime.endTime().value()), forces_(structureNames(bodies)), restraints_(bodies.restraints),
     nStructures_(int(bodies.structures.size())), firstStart_(runTime.value()), thinnestBody_(thinnestBody(bodies))
 {}
 
@@ -81,6 +81,7 @@ void RunOutput::begin(const CoupledStep& step)
     meshVolume_ = mesh_.thickness*halo_.sum(volume);
     mass_.final = step.fluid().liquidVolume();
     if (mass_.initial == 0) mass_.initial = mass_.final;
+    restraints_.begin(runTime_);
     if (halo_.rank() == 0)
     {
         const Foam::fileName folder = runTime_.globalPath()/"postProcessing"/"flotsam";
@@ -139,6 +140,7 @@ void RunOutput::record(const CoupledStep& step, const StepResult& result, const 
     const std::string text = log_.stepLine(line);
     Foam::Info<< text.c_str() << Foam::flush;
     reportComings(records);
+    if (step.coupling()) restraints_.record(runTime_.value(), step.coupling()->restraintLoads());
     reportSqueezed(step);
     reportOverlap(step);
     for (const std::string& waiting : result.waiting) Foam::Info<< waiting.c_str() << Foam::endl;
@@ -235,7 +237,7 @@ void RunOutput::end(const CoupledStep& step)
     summary.structures = forces_.result();
     summary.wall = timers_.wall();
     summary.cpu = timers_.cpu();
-    Foam::Info<< RunLog::summary(summary).c_str() << Foam::endl;
+    Foam::Info<< RunLog::summary(summary).c_str() << restraints_.summary().c_str() << Foam::endl;
 }
 
 } // namespace flotsam

@@ -3,6 +3,7 @@
 #include "demCoupling/foam/runOutput.H"
 
 #include "demCoupling/foam/continuedMotion.H"
+#include "foam/dictionaryChecks.H"
 #include "io/fluidRecord.hpp"
 
 #include "OSspecific.H"
@@ -17,15 +18,22 @@ namespace
 {
 
 /// Names as numbers, one a line: a state has nothing but numbers.
-std::vector<double> codesOf(const std::vector<HistoryMember>& members)
+std::vector<double> codesOf(const std::vector<std::string>& names)
 {
     std::vector<double> codes;
-    for (const HistoryMember& m : members)
+    for (const std::string& name : names)
     {
-        for (const char c : m.name) codes.push_back(static_cast<unsigned char>(c));
+        for (const char c : name) codes.push_back(static_cast<unsigned char>(c));
         codes.push_back('\n');
     }
     return codes;
+}
+
+std::vector<double> codesOf(const std::vector<HistoryMember>& members)
+{
+    std::vector<std::string> names;
+    for (const HistoryMember& m : members) names.push_back(m.name);
+    return codesOf(names);
 }
 
 std::vector<std::string> namesFrom(const std::vector<double>& codes)
@@ -218,6 +226,16 @@ void RunOutput::checkMotions(const RunState& state) const
         Foam::Info<< "Warning: constant/bodies is not that of the stored state of time " << runTime_.timeName() << ": " << held.c_str() << ".\n" << Foam::endl;
 }
 
+/// They are stored by their numbers. What they are made of may change while the run goes on; the state of a run without any takes up new ones.
+void RunOutput::checkRestraints(const RunState& state) const
+{
+    const auto stored = state.arrays.find("restraintNames");
+    if (stored == state.arrays.end() || stored->second == codesOf(restraints_.names())) return;
+    throw std::runtime_error("restart: constant/bodies is not that of the stored state of time " + runTime_.timeName() + ", whose restraints are " + joined(namesFrom(stored->second))
+        + "; now they are " + (bodies_.restraints.empty() ? "none" : joined(restraints_.names())) + ". Continue with those of the stored state, in its order (to let go of a body give its restraint a small"
+        " breakingForce)" + startAnew);
+}
+
 /// The state's own properties are in its pressure, velocities and loads alone: it goes on with others, which may be meant.
 void RunOutput::warnOtherFluid(const RunState& state) const
 {
@@ -241,6 +259,7 @@ void RunOutput::checkContinued(const RunState& state) const
 {
     checkMembers(state);
     checkMotions(state);
+    checkRestraints(state);
     warnOtherFluid(state);
 }
 
@@ -256,6 +275,7 @@ void RunOutput::takeSums(RunState& state)
     firstStart_ = state.scalars["firstStart"];
     largestOverlap_ = state.scalars["largestOverlap"];
     forces_.restore(state.arrays["forces"]);
+    restraints_.restore(state.arrays["restraints"]);
 }
 
 void RunOutput::writeState(const CoupledStep& step, double timeStep)
@@ -268,6 +288,11 @@ void RunOutput::writeState(const CoupledStep& step, double timeStep)
     for (const auto& array : ofProcess) names.push_back(array.first);
     state.arrays.insert(ofProcess.begin(), ofProcess.end());
     state.arrays["forces"] = forces_.values();
+    if (!bodies_.restraints.empty())
+    {
+        state.arrays["restraints"] = restraints_.values();
+        state.arrays["restraintNames"] = codesOf(restraints_.names());
+    }
     state.arrays["fluid"] = fluidRecord(fluid_);
     state.arrays["mesh"] = meshRecord(mesh_, halo_);
     state.arrays["members"] = codesOf(members_);

@@ -48,6 +48,7 @@ DemSetup makeDemSetup(const BodiesInput& input, double timeStep, double startTim
     setup.bodies = input.bodies;
     setup.walls = input.walls;
     setup.movers = input.movers;
+    setup.restraints = input.restraints;
     setup.startTime = startTime;
     setup.nMaterials = int(input.materials.size());
     setup.laws = input.laws;

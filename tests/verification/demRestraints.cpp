@@ -83,9 +83,8 @@ TEST_CASE("a mass on a spring: period, amplitude and energy over 20 periods, of 
         most = std::max(most, total);
         CHECK(s.pose.position.tail<2>() == Vec3(1.1, 0.2, 0.3).tail<2>());
     }
-    MESSAGE("energy between ", least / 4, " and ", most / 4);
-    CHECK(most / least - 1 < 2e-3); // (omega dt)^2/4, without a trend: next line
-    CHECK(least > 4 * (1 - 2e-3));
+    MESSAGE("energy between 1 - ", 1 - least / 4, " and 1 + ", most / 4 - 1);
+    CHECK(least > 4 * (1 - 1e-6)); // (omega dt)^2/4 of a swing, without a trend
     CHECK(most < 4 * (1 + 1e-9));
 }
 
@@ -125,9 +124,9 @@ TEST_CASE("two bodies on a spring at arms: momentum and angular momentum stay, t
 {
     std::vector<BodyDefinition> bodies = {debris(Vec3(0.3, 0.5, 0.5)), debris(Vec3(0.7, 0.5, 0.5))};
     bodies[1].name = "second";
-    bodies[0].motion = {Vec3(0.2, 0.1, 0), Vec3(0.5, 0, 1)};
+    bodies[0].motion = {Vec3(-0.1, 0.05, 0), Vec3(0.5, 0, 1)};
     DemSetup setup = scene(bodies, {});
-    setup.restraints = {restraint(Kind::LinearSpring, 0.1, 40, 0, ofBody(0, Vec3(0.1, 0.01, 0)), ofBody(1, Vec3(-0.1, 0, 0.01)))};
+    setup.restraints = {restraint(Kind::LinearSpring, 0.18, 40, 0, ofBody(0, Vec3(0.1, 0.01, 0)), ofBody(1, Vec3(-0.1, 0, 0.01)))};
     LiggghtsEngine engine(setup);
     const auto sums = [&]
     {
@@ -141,7 +140,7 @@ TEST_CASE("two bodies on a spring at arms: momentum and angular momentum stay, t
             energy += energyOf(states[b], bodies[b].mass);
         }
         const double length = engine.restraintLoads()[0].length;
-        return std::tuple(momentum, turning, energy + 20 * std::pow(length - 0.1, 2));
+        return std::tuple(momentum, turning, energy + 20 * std::pow(length - 0.18, 2));
     };
     const auto [momentum, turning, energy] = sums();
     double worst = 0;
@@ -152,9 +151,10 @@ TEST_CASE("two bodies on a spring at arms: momentum and angular momentum stay, t
         CHECK((m - momentum).norm() < 1e-14);
         CHECK((l - turning).norm() < 1e-13);
         worst = std::max(worst, std::abs(e / energy - 1));
+        REQUIRE(engine.contacts().empty());
     }
     MESSAGE("energy within ", worst);
-    CHECK(worst < 2e-3);
+    CHECK(worst < 5e-6);
 }
 
 TEST_CASE("a pendulum on a tether, let go at 90 degrees: three times its weight at the lowest point")

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "demCoupling/foam/restraintOutput.H"
+
+#include "foam/dictionaryChecks.H"
+
+#include "OSspecific.H"
+
+#include <cmath>
+#include <cstdio>
+
+namespace flotsam
+{
+
+namespace
+{
+
+template<class... Values>
+std::string formatted(const char* format, Values... values)
+{
+    char line[256];
+    std::snprintf(line, sizeof line, format, values...);
+    return line;
+}
+
+std::string header(const RestraintDefinition& r)
+{
+    return text("# Restraint ", r.name, ", ", r.kind == RestraintDefinition::Kind::Tether ? "tether" : "linearSpring", ": force on `body` and tension, means over the step that ends at Time [N]; tension of the"
+        " sub-step in which it was largest [N]; length at Time [m]; 1: broken\n")
+        + formatted("# %-16s %18s %18s %18s %18s %18s %18s %6s\n", "Time", "force_x", "force_y", "force_z", "tension", "largest", "length", "broken");
+}
+
+} // namespace
+
+void RestraintOutput::begin(const Foam::Time& runTime)
+{
+    if (!Foam::Pstream::master()) return;
+    const Foam::fileName folder = runTime.globalPath()/"postProcessing"/"restraints"/runTime.timeName();
+    files_.resize(restraints_.size());
+    for (std::size_t i = 0; i < restraints_.size(); ++i)
+    {
+        Foam::mkDir(folder);
+        const std::string& name = restraints_[i].name;
+        Foam::fileName path = folder/(name + ".dat");
+        for (int k = 1; Foam::exists(path); ++k) path = folder/text(name, '_', k, ".dat");
+        files_[i].open(path);
+        files_[i] << header(restraints_[i]) << std::flush;
+        if (!files_[i]) throw std::runtime_error("cannot write " + path);
+    }
+}
+
+void RestraintOutput::record(double time, const std::vector<RestraintLoad>& loads)
+{
+    for (std::size_t i = 0; i < loads.size(); ++i)
+    {
+        const RestraintLoad& load = loads[i];
+        Extreme& extreme = extremes_[i];
+        if (std::abs(load.largest) > std::abs(extreme.tension)) extreme = {load.largest, time, extreme.brokenAt};
+        if (load.isBroken && extreme.brokenAt < 0)
+        {
+            extreme.brokenAt = time;
+            Foam::Info<< text("t = ", time, " s: restraint ", restraints_[i].name, " is broken: its force exceeded ", restraints_[i].breakingForce, " N").c_str() << Foam::endl;
+        }
+        if (!files_.empty())
+            files_[i] << formatted("%-18.12g %18.10e %18.10e %18.10e %18.10e %18.10e %18.10e %6d", time, load.force[0], load.force[1], load.force[2], load.tension, load.largest,
+                load.length, int(load.isBroken)) << std::endl;
+    }
+}
+
+std::string RestraintOutput::summary() const
+{
+    if (restraints_.empty()) return "";
+    std::string table = "\n  restraints              largest tension [N]     at [s]   broken at [s]\n";
+    for (std::size_t i = 0; i < restraints_.size(); ++i)
+        table += formatted("  %-22s %20.4g %10.4g   ", restraints_[i].name.c_str(), extremes_[i].tension, extremes_[i].time)
+            + (extremes_[i].brokenAt < 0 ? "no" : formatted("%.4g", extremes_[i].brokenAt)) + '\n';
+    return table;
+}
+
+std::vector<std::string> RestraintOutput::names() const
+{
+    std::vector<std::string> names;
+    for (const RestraintDefinition& r : restraints_) names.push_back(r.name);
+    return names;
+}
+
+std::vector<double> RestraintOutput::values() const
+{
+    std::vector<double> values;
+    for (const Extreme& e : extremes_) values.insert(values.end(), {e.tension, e.time, e.brokenAt});
+    return values;
+}
+
+void RestraintOutput::restore(const std::vector<double>& values)
+{
+    for (std::size_t i = 0; i < extremes_.size() && 3*i + 2 < values.size(); ++i) extremes_[i] = {values[3*i], values[3*i + 1], values[3*i + 2]};
+}
+
+} // namespace flotsam
