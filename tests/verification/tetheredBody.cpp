@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+/// Restraints and fluid together: the tension of a tether is what the water does to the body that it holds.
+#include "support/bodyTank.hpp"
+#include "support/near.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdio>
+
+using namespace flotsam;
+
+namespace
+{
+
+constexpr double side = 0.2, speed = 1.0;
+
+struct Channel : CoupledRig
+{
+    Channel() : CoupledRig(makeBoxMesh(MPI_COMM_WORLD, 2, {48, 24, 1}, {0, 0, 0}, {2, 1, 1}))
+    {
+        fluid.rhoLiquid = 1000;
+        fluid.muLiquid = 10; // Re 20: a steady flow
+        controls.tolerance = 1e-8;
+        controls.contactTolerance = 1e-4;
+        controls.maxContactRepeats = 20;
+        auto inflow = [](const double*, double t) { return std::array<double, 3>{speed*std::min(1.0, t/0.2), 0, 0}; };
+        patches.push_back(makePatch(mesh, 0, BoundaryPatch::Velocity::Fixed, inflow));
+        patches.push_back(makePatch(mesh, 1, BoundaryPatch::Velocity::Open));
+        for (int p : {2, 3}) patches.push_back(makePatch(mesh, p, BoundaryPatch::Velocity::Slip));
+    }
+};
+
+BodyDefinition makeBar(const Vec3& position)
+{
+    BodyDefinition bar;
+    bar.name = "bar";
+    bar.shape = makeBox(Vec3::Zero(), Vec3(side, side, 1));
+    bar.volume = side*side;
+    bar.mass = 590*bar.volume;
+    bar.principalInertia = bar.mass/12*Vec3(1 + side*side, 1 + side*side, 2*side*side);
+    bar.pose.position = position;
+    bar.isPlanar = true;
+    bar.thinnest = side;
+    for (double y : {-0.08, -0.04, 0.0, 0.04, 0.08})
+        for (double x : {-0.08, 0.08}) bar.spheres.push_back({Vec3(x, y, 0), 0.02});
+    return bar;
+}
+
+RestraintDefinition tether(const Vec3& place, const Vec3& anchor, double length, double stiffness, double damping)
+{
+    RestraintDefinition r;
+    r.name = "tether";
+    r.kind = RestraintDefinition::Kind::Tether;
+    r.end = {0, -1, place};
+    r.other = {-1, -1, anchor};
+    r.length = length;
+    r.stiffness = stiffness;
+    r.damping = damping;
+    return r;
+}
+
+} // namespace
+
+TEST_CASE("a tether holds a bar in a current with the drag of the bar fixed")
+{
+    const Vec3 position(0.7, 0.5, 0.5);
+    Channel channel;
+    DemSetup dem;
+    dem.bodies = {makeBar(position)};
+    dem.laws = {ContactLaw()};
+    dem.box = {Vec3(0, 0, 0), Vec3(2, 1, 1)};
+    dem.restraints = {tether(Vec3(-side/2, 0, 0), Vec3(0.3, 0.5, 0.5), 0.3, 2e6, 1e4)};
+    CoupledStep held(channel.mesh, channel.halo, channel.fluid, channel.controls, channel.patches, Scene({}, dem.bodies, Vec3::Zero()), &dem, channel.timers);
+    held.start(restState(channel.mesh), true);
+    Solid fixed;
+    fixed.shape = dem.bodies[0].shape;
+    fixed.pose.position = position;
+    CoupledStep still(channel.mesh, channel.halo, channel.fluid, channel.controls, channel.patches, Scene({{fixed, -1, {}}}, {}, Vec3::Zero()), nullptr, channel.timers);
+    still.start(restState(channel.mesh), true);
+    int repeats = 0;
+    for (int k = 0; k < 60; ++k)
+    {
+        REQUIRE(still.step(0.02).isAccepted);
+        const StepResult result = held.step(0.02);
+        REQUIRE(result.isAccepted);
+        repeats = std::max(repeats, result.solves - 1);
+    }
+    const double drag = still.records()[0].fluidForce[0];
+    const RestraintLoad line = held.coupling()->restraintLoads()[0];
+    const BodyRecord record = held.records()[0];
+    std::printf("drag fixed %.4f N, of the held bar %.4f N, tension %.4f N (%.3f %%), stretched by %.3g m, speed %.2g m/s, turned by %.2g, largest number of repeats %d\n", drag, record.fluidForce[0],
+        line.tension, 100*(line.tension/drag - 1), line.length - 0.3, record.motion.velocity[0], record.pose.orientation.vec().norm(), repeats);
+    CHECK(line.tension == near(drag, 1e-3));
+    CHECK(record.fluidForce[0] == near(drag, 1e-3));
+    CHECK(line.force[0] == near(-line.tension, 1e-4));
+    CHECK((line.force - record.contactForce).norm() < 1e-9*drag);
+    CHECK(line.tension == near(2e6*(line.length - 0.3), 1e-3));
+    CHECK(std::abs(record.motion.velocity[0]) < 1e-4);
+}
+
+TEST_CASE("a buoyant bar tethered to the bed: tension is buoyancy less weight; a saved state goes on the same")
+{
+    using namespace bodyTank;
+    Tank tank;
+    BodyDefinition bar = bodyTank::makeBar("bar", 0, Vec3(0.5, 0.25, 0.5));
+    DemSetup dem = makeDem({bar});
+    dem.restraints = {tether(Vec3(0, -bodyTank::side/2, 0), Vec3(0.5, 0, 0.5), 0.2, 1e5, 500)};
+    const double lift = (1000 - 600)*bar.volume*g;
+    const auto run = makeRun(tank, dem), other = makeRun(tank, dem);
+    run->start(tank.rest(), true);
+    for (int k = 0; k < 60; ++k) REQUIRE(run->step(0.01).isAccepted);
+    run->forgetUnwritten();
+    FlowState state = run->fluid().state();
+    CoupledStep::Arrays arrays = run->save();
+    arrays.merge(run->saveOfProcess());
+    other->restore(state, arrays, CoupledStep::Fields::Exact);
+    for (int k = 0; k < 40; ++k)
+    {
+        REQUIRE(run->step(0.01).isAccepted);
+        REQUIRE(other->step(0.01).isAccepted);
+    }
+    const RestraintLoad line = run->coupling()->restraintLoads()[0];
+    std::printf("tension %.5f N, buoyancy less weight %.5f N (%.4f %%), speed %.2g m/s\n", line.tension, lift, 100*(line.tension/lift - 1), run->records()[0].motion.velocity.norm());
+    CHECK(line.tension == near(lift, 2e-3));
+    CHECK(line.force[1] == near(-lift, 2e-3));
+    CHECK(other->coupling()->restraintLoads()[0].tension == line.tension);
+    CHECK(other->records()[0].pose.position == run->records()[0].pose.position);
+}
+
+TEST_CASE("a tether that breaks lets the bar rise")
+{
+    using namespace bodyTank;
+    Tank tank;
+    DemSetup dem = makeDem({bodyTank::makeBar("bar", 0, Vec3(0.5, 0.25, 0.5))});
+    dem.restraints = {tether(Vec3(0, -bodyTank::side/2, 0), Vec3(0.5, 0, 0.5), 0.2, 1e5, 500)};
+    dem.restraints[0].breakingForce = 20; // lift 39 N
+    const auto run = makeRun(tank, dem);
+    run->start(tank.rest(), true);
+    for (int k = 0; k < 20; ++k) REQUIRE(run->step(0.01).isAccepted);
+    CHECK(run->coupling()->restraintLoads()[0].isBroken);
+    CHECK(run->records()[0].motion.velocity[1] > 0.1);
+    CHECK(run->records()[0].contactForce.isZero(0));
+}
