@@ -44,15 +44,27 @@ std::string besideBody(const RestraintDefinition& r, const BodiesInput& input)
     return "";
 }
 
+/// Within a step the water's load is constant: it feeds and damps no vibration that is faster.
+std::string undamped(const RestraintDefinition& r, const BodiesInput& input, double startTime, double deltaT)
+{
+    constexpr double little = 0.05, enough = 0.2, steps = 10; // damping ratios; steps a period in which the water damps
+    const RestraintPeriod swing = naturalPeriod(r, input.bodies, input.movers, startTime);
+    if (swing.period > steps*deltaT || swing.dampingRatio >= little) return "";
+    return text("a dry period of ", swing.period, " s, of few steps of the fluid, and a damping ratio of ", swing.dampingRatio, ": what it vibrates by within the steps goes on, and its largest tension is of that."
+        " damping ", enough*r.stiffness*swing.period/M_PI, " would be a ratio of ", enough);
+}
+
 } // namespace
 
-std::vector<std::string> doubtfulRestraints(const BodiesInput& input, double startTime)
+std::vector<std::string> doubtfulRestraints(const BodiesInput& input, double startTime, double deltaT)
 {
     std::vector<std::string> doubts;
     for (const RestraintDefinition& r : input.restraints)
     {
         const std::string beside = besideBody(r, input);
         if (!beside.empty()) doubts.push_back(text("restraint ", r.name, ": ", beside, ". Points are given in space, of the body where constant/bodies puts it"));
+        const std::string rings = undamped(r, input, startTime, deltaT);
+        if (!rings.empty()) doubts.push_back(text("restraint ", r.name, " has ", rings));
         const double force = std::abs(r.tension(initialLine(r, input.bodies, input.movers, startTime).norm(), 0));
         if (force > r.breakingForce) doubts.push_back(text("restraint ", r.name, " breaks at once: ", force, " N at the start, breakingForce ", r.breakingForce, " N"));
     }
@@ -70,7 +82,7 @@ void reportRestraints(const BodiesInput& input, double startTime, double deltaT)
     for (std::size_t i = 0; i < std::min(mostLines, input.restraints.size()); ++i)
         Foam::Info<< "    " << describe(input.restraints[i], input, startTime).c_str() << Foam::nl;
     if (input.restraints.size() > mostLines) Foam::Info<< "    and " << input.restraints.size() - mostLines << " more" << Foam::nl;
-    for (const std::string& doubt : doubtfulRestraints(input, startTime)) Foam::Info<< "Warning: " << doubt.c_str() << Foam::nl;
+    for (const std::string& doubt : doubtfulRestraints(input, startTime, deltaT)) Foam::Info<< "Warning: " << doubt.c_str() << Foam::nl;
 }
 
 } // namespace flotsam

@@ -53,7 +53,7 @@ TEST_CASE("a tether to a point, a spring between bodies, a tether to a structure
     CHECK((tow.other.place - Vec3(0, -0.05, 0)).norm() < 1e-12);
     CHECK(fast.other.mover == -1);
     CHECK(fast.other.place == Vec3(1.2, 0.89, 0.2));
-    CHECK(doubtfulRestraints(input, 0).empty());
+    CHECK(doubtfulRestraints(input, 0, 1e-3).empty());
     reportRestraints(input, 0, 1e-3);
 }
 
@@ -98,14 +98,20 @@ TEST_CASE("one message for every mistake")
     CHECK(has(message(type + ends + stiff + "breakingForce 0; "), "'breakingForce' is 0"));
 }
 
-TEST_CASE("doubts: a point beside its body, a restraint that breaks at once")
+TEST_CASE("doubts: a point beside its body, a restraint that breaks at once, a stiff one without damping")
 {
     BodiesScene s;
     const std::string beside = "type tether; body boat; refAttachmentPt (0.5 0.8 0.2); anchor (0.5 0.9 0.2); ";
-    auto doubts = doubtfulRestraints(s.read(logs + restraint(beside + stiff)), 0);
+    auto doubts = doubtfulRestraints(s.read(logs + restraint(beside + stiff)), 0, 1e-3);
     REQUIRE(doubts.size() == 1);
     CHECK(has(doubts[0], "its point on body boat is 0.2 m outside of that"));
-    doubts = doubtfulRestraints(s.read(logs + restraint(type + ends + stiff + "length 0.2; breakingForce 500;")), 0);
+    doubts = doubtfulRestraints(s.read(logs + restraint(type + ends + stiff + "length 0.2; breakingForce 500;")), 0, 1e-3);
     REQUIRE(doubts.size() == 1);
     CHECK(has(doubts[0], "restraint mooring breaks at once: 1000 N at the start"));
+    const BodiesInput stiffly = s.read(logs + restraint(type + ends + "stiffness 1e5; damping 0;"));
+    doubts = doubtfulRestraints(stiffly, 0, 1e-3); // a bar of 0.096 kg pulled along its length: 6.16 ms
+    REQUIRE(doubts.size() == 1);
+    CHECK(has(doubts[0], "restraint mooring has a dry period of 0.00615624 s, of few steps of the fluid, and a damping ratio of 0"));
+    CHECK(has(doubts[0], "damping 39.1918 would be a ratio of 0.2"));
+    CHECK(doubtfulRestraints(stiffly, 0, 1e-4).empty());
 }
