@@ -392,7 +392,6 @@ void LiggghtsEngine::setStates(const std::vector<BodyState>& states)
 }
 
 DemState LiggghtsEngine::save() const { return saveState(impl_->model); }
-
 void LiggghtsEngine::restore(const DemState& state) { restoreState(impl_->model, state); }
 
 double LiggghtsEngine::timeStep() const { return impl_->timeStep; }
