@@ -22,6 +22,14 @@ double mixingLength(double y, double depth)
     return kappa*share*depth*std::sqrt(1 - share);
 }
 
+std::vector<int> noSlipPatches(const std::vector<BoundaryPatch>& patches)
+{
+    std::vector<int> found;
+    for (const BoundaryPatch& p : patches)
+        if (p.velocity == BoundaryPatch::Velocity::NoSlip) found.push_back(p.meshPatch);
+    return found;
+}
+
 /// |S| = sqrt(2 S:S) of du_k/dx_l at k*dim + l.
 double shearRate(const double* gradient, int dim)
 {
@@ -51,9 +59,9 @@ double dampedEddyViscosity(double mixingLength, double y, double shear, double n
     return eddy;
 }
 
-EddyViscosity::EddyViscosity(const SimplexMesh& mesh, const Halo& halo, const std::vector<int>& patches, const NumericsControls& controls)
+EddyViscosity::EddyViscosity(const SimplexMesh& mesh, const Halo& halo, const std::vector<BoundaryPatch>& patches, const NumericsControls& controls)
 :   mesh_(mesh), halo_(halo), depth_(controls.mixingDepth), isSmooth_(controls.wallRoughness == 0), gradients_(mesh, halo),
-    distance_(distanceFromPatches(mesh, halo, patches, outer*controls.mixingDepth)), eddy_(mesh.nNodes), sum_(mesh.nNodes), count_(mesh.nNodes)
+    distance_(distanceFromPatches(mesh, halo, noSlipPatches(patches), outer*controls.mixingDepth)), eddy_(mesh.nNodes), sum_(mesh.nNodes), count_(mesh.nNodes)
 {}
 
 void EddyViscosity::add(const Cover* cover, NodalData& nodal)

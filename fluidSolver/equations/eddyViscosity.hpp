@@ -5,6 +5,7 @@
 /// 1 - exp(-y+/26) (1956, doi 10.2514/8.3713).
 #pragma once
 
+#include "core/boundary.hpp"
 #include "core/controls.hpp"
 #include "equations/elementLoader.hpp"
 #include "equations/nodalGradients.hpp"
@@ -15,8 +16,8 @@ namespace flotsam
 class EddyViscosity
 {
 public:
-    /// patches: no-slip ones, numbers in mesh.patches. Collective.
-    EddyViscosity(const SimplexMesh& mesh, const Halo& halo, const std::vector<int>& patches, const NumericsControls& controls);
+    /// Collective.
+    EddyViscosity(const SimplexMesh& mesh, const Halo& halo, const std::vector<BoundaryPatch>& patches, const NumericsControls& controls);
 
     /// From the advecting velocity: into nodal.eddy, and on to nodal.mu. Of liquid alone: beside its surface, where gas that is dragged along would count, nu_t is that of the
     /// liquid below. cover: null without solids. Collective.

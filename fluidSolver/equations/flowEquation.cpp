@@ -42,15 +42,7 @@ FlowEquation::FlowEquation(const SimplexMesh& mesh, const NodeGraph& graph, cons
         if (p.velocity == BoundaryPatch::Velocity::Open)
             for (int i : p.nodes) isOpen_[i] = 1;
     buildConstraints();
-    if (controls.mixingDepth > 0) eddies_ = std::make_unique<EddyViscosity>(mesh, halo, noSlipPatches(), controls);
-}
-
-std::vector<int> FlowEquation::noSlipPatches() const
-{
-    std::vector<int> found;
-    for (const BoundaryPatch& p : patches_)
-        if (p.velocity == BoundaryPatch::Velocity::NoSlip) found.push_back(p.meshPatch);
-    return found;
+    if (controls.mixingDepth > 0) eddies_ = std::make_unique<EddyViscosity>(mesh, halo, patches, controls);
 }
 
 void FlowEquation::setMaterials()

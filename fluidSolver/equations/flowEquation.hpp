@@ -151,7 +151,6 @@ private:
         return loadMeans<D>(e, mesh_, step_, controls_, nodal_, data, source);
     }
     void setMaterials();
-    std::vector<int> noSlipPatches() const;
     void buildConstraints();
     void findWallRims(const std::vector<char>& isFixed);
     void addRimNodes(int p, const std::vector<char>& isResting);

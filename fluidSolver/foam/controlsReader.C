@@ -305,8 +305,7 @@ NumericsControls readNumerics(const Foam::dictionary& fvSolution)
     checkKeywords(dict, known);
     for (const auto& entry : controlsTable()) readEntry(dict, entry, numerics);
     if (numerics.mixingDepth > 0 && !numerics.wallLaw)
-        failIn(dict, text("mixingDepth ", numerics.mixingDepth, " m gives the stream an eddy viscosity, and wallLaw is off: the bed would hold next to nothing of it.\n"
-            "    Set wallLaw on, or take mixingDepth out."));
+        failIn(dict, text("mixingDepth ", numerics.mixingDepth, " m: wallLaw is off, the bed would hold next to nothing of the stream. Set wallLaw on, or take mixingDepth out."));
     if (numerics.wallLaw && numerics.wallGamma == 0)
         failIn(dict, text("wallLaw is on and wallGamma is 0, which prescribes the velocity of no-slip patches at the nodes: there is nothing for the law to do.\n"
             "    Give a wallGamma above 0 (default ", NumericsControls().wallGamma, ") or set wallLaw off."));

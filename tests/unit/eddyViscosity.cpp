@@ -42,7 +42,15 @@ struct Stream
 
     std::vector<int> bed() const { return {2*(mesh.dim - 1)}; }
 
-    void add(const Cover* cover = nullptr) { EddyViscosity(mesh, halo, bed(), controls).add(cover, nodal); }
+    void add(const Cover* cover = nullptr)
+    {
+        BoundaryPatch wall, side;
+        wall.velocity = BoundaryPatch::Velocity::NoSlip;
+        wall.meshPatch = bed()[0];
+        side.velocity = BoundaryPatch::Velocity::Slip;
+        side.meshPatch = 0;
+        EddyViscosity(mesh, halo, {wall, side}, controls).add(cover, nodal);
+    }
 
     bool isInside(int i) const
     {
