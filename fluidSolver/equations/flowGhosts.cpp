@@ -23,9 +23,11 @@ double ghostWeight(const SimplexMesh& mesh, const Cover& cover, const InteriorFa
     return lack*lack;   // smooth where it vanishes: moving bodies feel no kink
 }
 
+/// The same in whatever order the nodes are: another process may have the face the other way round.
 bool hasOneDensity(const std::vector<double>& rho, const int* nodes, int n)
 {
-    return std::all_of(nodes, nodes + n, [&](int i) { return std::abs(rho[i] - rho[nodes[0]]) < 1e-6*rho[nodes[0]]; });
+    const auto [least, most] = std::minmax_element(nodes, nodes + n, [&](int i, int j) { return rho[i] < rho[j]; });
+    return rho[*most] - rho[*least] < 1e-6*rho[*least];
 }
 
 /// The face's nodes, then the two opposite ones.
