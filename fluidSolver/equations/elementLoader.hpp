@@ -94,6 +94,13 @@ inline int nearestRing(const int* nodes, int n, const NodalData& nodal)
 /// the element's own fluxes, at the end of the step, do the same.
 inline bool isCarried(const int* nodes, int n, const NodalData& nodal) { return nearestRing(nodes, n, nodal) == NodalData::At; }
 
+/// The nodes are not all of one fluid at all three times.
+inline bool variesAtNodes(const int* nodes, int n, const NodalData& nodal)
+{
+    const NodalData::Fluid first = nodal.fluid[nodes[0]];
+    return first == NodalData::Mixed || std::any_of(nodes + 1, nodes + n, [&](int i) { return nodal.fluid[i] != first; });
+}
+
 /// Share of the time step's rate in the grad-div term. Beside the surface all of it, as waves grow with less: in the elements that the mass fluxes convect in and those
 /// around. Elsewhere it only resists motions that P1 cannot make free of divergence, the more the smaller the step (docs/numerics.md).
 inline double gradDivTimeShare(const int* nodes, int n, const NumericsControls& controls, const NodalData& nodal)
@@ -101,11 +108,11 @@ inline double gradDivTimeShare(const int* nodes, int n, const NumericsControls& 
     return nearestRing(nodes, n, nodal) == NodalData::Far ? controls.tauContBulk : 1;
 }
 
-/// By the element's mean densities; where the density varies, by those of its nodes.
+/// By the element's mean densities; where the mass fluxes convect (areFluxesIts), by those of its nodes.
 template<int D>
-inline bool isSteepElement(const ElementData<D>& data, const int* nodes, const NodalData& nodal, double rhoOld, double rhoOlder)
+inline bool isSteepElement(bool areFluxesIts, const ElementData<D>& data, const int* nodes, const NodalData& nodal, double rhoOld, double rhoOlder)
 {
-    if (!data.isVarying) return isSteep(data.rho, rhoOld, rhoOlder);
+    if (!areFluxesIts) return isSteep(data.rho, rhoOld, rhoOlder);
     return std::any_of(nodes, nodes + D + 1, [&](int i) { return nodal.own[i].isSteep; });
 }
 
@@ -269,10 +276,13 @@ inline bool loadResidualData(int e, const SimplexMesh& mesh, const FlowStepData&
     constexpr int N = D + 1;
     if (!loadMeans<D>(e, mesh, step, controls, nodal, data, source)) return false;
     const int* nodes = &mesh.elements[std::size_t(e)*N];
-    if (step.transport && isCarried(nodes, N, nodal) && (!source.cut || isAtRest(step, *source.cut))) source.fluxes = step.transport->fluxes(e);
+    const bool mayHaveFluxes = step.transport && isCarried(nodes, N, nodal) && (!source.cut || isAtRest(step, *source.cut));
+    if (mayHaveFluxes) source.fluxes = step.transport->fluxes(e);
     data.isVarying = source.fluxes.total != nullptr;
     source.time = step.time;
-    source.isSteep = isSteepElement<D>(data, nodes, nodal, source.rhoOld, source.rhoOlder);
+    // of the second ring this process has none, but asks for the residual's u', which others have of the same element (ghost penalty)
+    const bool areElsewhere = mayHaveFluxes && e >= mesh.nInnerElements && variesAtNodes(nodes, N, nodal);
+    source.isSteep = isSteepElement<D>(data.isVarying || areElsewhere, data, nodes, nodal, source.rhoOld, source.rhoOlder);
     if (source.isSteep) source.time = TimeScheme::bdf(1, step.time.dt, 0);
     const double c1 = source.time.c1, c2 = source.time.c2;
     data.c0 = source.time.c0;

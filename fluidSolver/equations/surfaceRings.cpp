@@ -21,12 +21,7 @@ void findSurfaceRings(const SimplexMesh& mesh, const Halo& halo, NodalData& noda
         }
         halo.update(ring, 1);
     };
-    const auto varies = [&](const int* nodes)
-    {
-        const NodalData::Fluid first = nodal.fluid[nodes[0]];
-        return first == NodalData::Mixed || std::any_of(nodes + 1, nodes + n, [&](int i) { return nodal.fluid[i] != first; });
-    };
-    raise(NodalData::At, varies);
+    raise(NodalData::At, [&](const int* nodes) { return variesAtNodes(nodes, n, nodal); });
     raise(NodalData::Beside, [&](const int* nodes) { return isCarried(nodes, n, nodal); });
 }
 
