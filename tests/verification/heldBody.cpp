@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Flow and contact together: a light bar that a current presses against a stop feels, from the stop, the drag that the same bar
 /// feels when it is fixed; without contact the DEM ends at the velocity that the linear system gave.
-#include "support/coupledRig.hpp"
+#include "support/barInCurrent.hpp"
 #include "support/near.hpp"
 
 #include <doctest/doctest.h>
@@ -10,44 +10,10 @@
 #include <cstdio>
 
 using namespace flotsam;
+using namespace barInCurrent;
 
 namespace
 {
-
-constexpr double side = 0.2, speed = 1.0;
-
-struct Channel : CoupledRig
-{
-    Channel() : CoupledRig(makeBoxMesh(MPI_COMM_WORLD, 2, {48, 24, 1}, {0, 0, 0}, {2, 1, 1}))
-    {
-        fluid.rhoLiquid = 1000;
-        fluid.muLiquid = 10; // Re 20: a steady flow
-        controls.tolerance = 1e-8;
-        controls.contactTolerance = 1e-4;
-        controls.maxContactRepeats = 20;
-        auto inflow = [](const double*, double t) { return std::array<double, 3>{speed*std::min(1.0, t/0.2), 0, 0}; };
-        patches.push_back(makePatch(mesh, 0, BoundaryPatch::Velocity::Fixed, inflow));
-        patches.push_back(makePatch(mesh, 1, BoundaryPatch::Velocity::Open));
-        for (int p : {2, 3}) patches.push_back(makePatch(mesh, p, BoundaryPatch::Velocity::Slip));
-    }
-
-    FlowState rest() const { return restState(mesh); }
-};
-
-BodyDefinition makeBar(double density, const Vec3& position)
-{
-    BodyDefinition bar;
-    bar.name = "bar";
-    bar.shape = makeBox(Vec3::Zero(), Vec3(side, side, 1));
-    bar.volume = side*side;
-    bar.mass = density*bar.volume;
-    bar.principalInertia = bar.mass/12*Vec3(1 + side*side, 1 + side*side, 2*side*side);
-    bar.pose.position = position;
-    bar.isPlanar = true;
-    for (double y : {-0.08, -0.04, 0.0, 0.04, 0.08})
-        for (double x : {-0.08, 0.08}) bar.spheres.push_back({Vec3(x, y, 0), 0.02});
-    return bar;
-}
 
 DemSetup makeDem(const BodyDefinition& bar, double stop)
 {

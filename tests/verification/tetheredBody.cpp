@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Restraints and fluid together: the tension of a tether is what the water does to the body that it holds.
+#include "support/barInCurrent.hpp"
 #include "support/bodyTank.hpp"
 #include "support/near.hpp"
 
@@ -12,40 +13,6 @@ using namespace flotsam;
 
 namespace
 {
-
-constexpr double side = 0.2, speed = 1.0;
-
-struct Channel : CoupledRig
-{
-    Channel() : CoupledRig(makeBoxMesh(MPI_COMM_WORLD, 2, {48, 24, 1}, {0, 0, 0}, {2, 1, 1}))
-    {
-        fluid.rhoLiquid = 1000;
-        fluid.muLiquid = 10; // Re 20: a steady flow
-        controls.tolerance = 1e-8;
-        controls.contactTolerance = 1e-4;
-        controls.maxContactRepeats = 20;
-        auto inflow = [](const double*, double t) { return std::array<double, 3>{speed*std::min(1.0, t/0.2), 0, 0}; };
-        patches.push_back(makePatch(mesh, 0, BoundaryPatch::Velocity::Fixed, inflow));
-        patches.push_back(makePatch(mesh, 1, BoundaryPatch::Velocity::Open));
-        for (int p : {2, 3}) patches.push_back(makePatch(mesh, p, BoundaryPatch::Velocity::Slip));
-    }
-};
-
-BodyDefinition makeBar(const Vec3& position)
-{
-    BodyDefinition bar;
-    bar.name = "bar";
-    bar.shape = makeBox(Vec3::Zero(), Vec3(side, side, 1));
-    bar.volume = side*side;
-    bar.mass = 590*bar.volume;
-    bar.principalInertia = bar.mass/12*Vec3(1 + side*side, 1 + side*side, 2*side*side);
-    bar.pose.position = position;
-    bar.isPlanar = true;
-    bar.thinnest = side;
-    for (double y : {-0.08, -0.04, 0.0, 0.04, 0.08})
-        for (double x : {-0.08, 0.08}) bar.spheres.push_back({Vec3(x, y, 0), 0.02});
-    return bar;
-}
 
 RestraintDefinition tether(const Vec3& place, const Vec3& anchor, double length, double stiffness, double damping)
 {
@@ -65,12 +32,12 @@ RestraintDefinition tether(const Vec3& place, const Vec3& anchor, double length,
 TEST_CASE("a tether holds a bar in a current with the drag of the bar fixed")
 {
     const Vec3 position(0.7, 0.5, 0.5);
-    Channel channel;
+    barInCurrent::Channel channel;
     DemSetup dem;
-    dem.bodies = {makeBar(position)};
+    dem.bodies = {barInCurrent::makeBar(590, position)};
     dem.laws = {ContactLaw()};
     dem.box = {Vec3(0, 0, 0), Vec3(2, 1, 1)};
-    dem.restraints = {tether(Vec3(-side/2, 0, 0), Vec3(0.3, 0.5, 0.5), 0.3, 2e6, 1e4)};
+    dem.restraints = {tether(Vec3(-barInCurrent::side/2, 0, 0), Vec3(0.3, 0.5, 0.5), 0.3, 2e6, 1e4)};
     CoupledStep held(channel.mesh, channel.halo, channel.fluid, channel.controls, channel.patches, Scene({}, dem.bodies, Vec3::Zero()), &dem, channel.timers);
     held.start(restState(channel.mesh), true);
     Solid fixed;
@@ -159,7 +126,7 @@ Swing swingInWater(double dt)
     box.fluid.muLiquid = 0.1;
     for (int p = 0; p < 4; ++p) box.patches.push_back(makePatch(box.mesh, p, BoundaryPatch::Velocity::Slip));
     DemSetup dem;
-    dem.bodies = {makeBar(Vec3(0.5, 0.5, 0.5))};
+    dem.bodies = {barInCurrent::makeBar(590, Vec3(0.5, 0.5, 0.5))};
     dem.laws = {ContactLaw()};
     dem.box = {Vec3(0, 0, 0), Vec3(1, 1, 1)};
     dem.restraints = {tether(Vec3::Zero(), Vec3(0, 0.5, 0.5), 0.48, 3000, 0)};
@@ -189,7 +156,7 @@ Swing swingInWater(double dt)
 
 TEST_CASE("a bar on a soft spring under water: period and decay are those of the water, not of the step")
 {
-    const double dry = 2*M_PI*std::sqrt(590*side*side/3000);
+    const double dry = 2*M_PI*std::sqrt(590*barInCurrent::side*barInCurrent::side/3000);
     const Swing coarse = swingInWater(0.04), fine = swingInWater(0.02);
     for (const Swing& s : {coarse, fine}) std::printf("period %.4f s (dry %.4f s), amplitude over that of the swing before %.4f\n", s.period, dry, s.decrement);
     CHECK(fine.period > 1.6*dry); // added mass: 1.19 times a square's displaced mass in open water
