@@ -36,9 +36,9 @@ void RestraintOutput::begin(const Foam::Time& runTime)
     if (!Foam::Pstream::master()) return;
     const Foam::fileName folder = runTime.globalPath()/"postProcessing"/"restraints"/runTime.timeName();
     files_.resize(restraints_.size());
+    if (!files_.empty()) Foam::mkDir(folder);
     for (std::size_t i = 0; i < restraints_.size(); ++i)
     {
-        Foam::mkDir(folder);
         const std::string& name = restraints_[i].name;
         Foam::fileName path = folder/(name + ".dat");
         for (int k = 1; Foam::exists(path); ++k) path = folder/text(name, '_', k, ".dat");

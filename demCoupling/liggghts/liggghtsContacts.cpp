@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The contacts of this instant, one per pair of bodies or of body and wall.
-#include "geometry/closestPoint.hpp"
 #include "demCoupling/liggghts/liggghtsHistory.hpp"
+#include "geometry/closestPoint.hpp"
 
 #include "atom.h"
 #include "fix.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/liggghts/liggghtsCorners.hpp"
-
 #include "geometry/closestPoint.hpp"
+
 
 #include "atom.h"
 #include "fix_multisphere.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/liggghts/liggghtsFacets.hpp"
 
-#include "geometry/closestPoint.hpp"
 #include "demCoupling/liggghts/liggghtsHistory.hpp"
+#include "geometry/closestPoint.hpp"
 
 #include <mpi.h>
 

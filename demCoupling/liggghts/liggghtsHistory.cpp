@@ -2,8 +2,8 @@
 /// Tangential springs of all contacts, written and read as plain doubles.
 /// Pair contacts and planes are keyed by sphere tags, mesh contacts by sphere tag and triangle id.
 #include "demCoupling/liggghts/liggghtsHistory.hpp"
-
 #include "geometry/closestPoint.hpp"
+
 
 #include "atom.h"
 #include "fix_mesh_surface.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/liggghts/liggghtsNear.hpp"
 
-#include "geometry/closestPoint.hpp"
 #include "demCoupling/liggghts/liggghtsHistory.hpp"
 #include "demCoupling/liggghts/liggghtsRestraints.hpp"
+#include "geometry/closestPoint.hpp"
 
 #include <mpi.h>
 

@@ -48,7 +48,7 @@ double shearRate(const double* gradient, int dim)
 double dampedEddyViscosity(double mixingLength, double y, double shear, double nu)
 {
     constexpr double thickness = 26;    // of the damped layer, y+
-    constexpr int nIterations = 8;      // from above; the error falls by more than half in each
+    constexpr int nIterations = 8;      // from above; the error falls by about half in each (0.53 at y+ = 20): 0.6 % of the stress is left at most
     const double whole = mixingLength*mixingLength*shear;
     double eddy = whole;
     for (int k = 0; k < nIterations; ++k)

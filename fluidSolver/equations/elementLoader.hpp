@@ -108,11 +108,11 @@ inline double gradDivTimeShare(const int* nodes, int n, const NumericsControls& 
     return nearestRing(nodes, n, nodal) == NodalData::Far ? controls.tauContBulk : 1;
 }
 
-/// By the element's mean densities; where the mass fluxes convect (areFluxesIts), by those of its nodes.
+/// By the element's mean densities; where the mass fluxes convect (goesByNodes), by those of its nodes.
 template<int D>
-inline bool isSteepElement(bool areFluxesIts, const ElementData<D>& data, const int* nodes, const NodalData& nodal, double rhoOld, double rhoOlder)
+inline bool isSteepElement(bool goesByNodes, const ElementData<D>& data, const int* nodes, const NodalData& nodal, double rhoOld, double rhoOlder)
 {
-    if (!areFluxesIts) return isSteep(data.rho, rhoOld, rhoOlder);
+    if (!goesByNodes) return isSteep(data.rho, rhoOld, rhoOlder);
     return std::any_of(nodes, nodes + D + 1, [&](int i) { return nodal.own[i].isSteep; });
 }
 

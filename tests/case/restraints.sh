@@ -73,16 +73,10 @@ import sys
 
 import numpy as np
 
+import checks
+
 import flotsam
 
-failures = 0
-
-
-def check(what, found, expected, error):
-    global failures
-    isGood = abs(found - expected) <= error
-    failures += not isGood
-    print(f"{what}: {found:.6g}, {expected:.6g} to {error:.2g}{'' if isGood else ': FAILED'}")
 
 
 def table(case, name):
@@ -94,15 +88,15 @@ lift = 400*0.02**2*0.05*9.81
 last = mooring[mooring[:, 0] > 0.1025]
 history = flotsam.history("rest/postProcessing/flotsam")
 water = history["bar"].fluidForce[history.time > 0.1025, 1] - 600*0.02**2*0.05*9.81
-check("mean tension: the water's force less weight [N]", last[:, 4].mean(), water.mean(), 1e-3*lift)
-check("buoyancy less weight; the surface sloshes by what the cells make of it at the start [N]", last[:, 4].mean(), lift, 0.04*lift)
-check("force along y [N]", np.abs(last[:, 2] + last[:, 4]).max(), 0, 2e-3*lift)
-check("contact force of bodies.h5 [N]", np.abs(history["bar"].contactForce[history.time > 0.1025, 1] - last[:, 2]).max(), 0, 1e-9)
-check("length [m]", last[-1, 6], 0.03 + last[-1, 4]/5000, 1e-3*lift/5000)
+checks.check("mean tension: the water's force less weight [N]", last[:, 4].mean(), water.mean(), 1e-3*lift)
+checks.check("buoyancy less weight; the surface sloshes by what the cells make of it at the start [N]", last[:, 4].mean(), lift, 0.04*lift)
+checks.check("force along y [N]", np.abs(last[:, 2] + last[:, 4]).max(), 0, 2e-3*lift)
+checks.check("contact force of bodies.h5 [N]", np.abs(history["bar"].contactForce[history.time > 0.1025, 1] - last[:, 2]).max(), 0, 1e-9)
+checks.check("length [m]", last[-1, 6], 0.03 + last[-1, 4]/5000, 1e-3*lift/5000)
 for name in ("mooring", "link", "weak"):
     one, two = table("one", name), table("two", name)
-    check(f"{name}, two processes", np.abs(one[:, 1:5] - two[:, 1:5]).max(), 0, 5e-3*lift)
-check("broken", table("one", "weak")[-1, 7], 1, 0)
-check("not broken", table("one", "mooring")[-1, 7], 0, 0)
-sys.exit(failures)
+    checks.check(f"{name}, two processes", np.abs(one[:, 1:5] - two[:, 1:5]).max(), 0, 5e-3*lift)
+checks.check("broken", table("one", "weak")[-1, 7], 1, 0)
+checks.check("not broken", table("one", "mooring")[-1, 7], 0, 0)
+sys.exit(checks.count())
 PY

@@ -97,4 +97,4 @@ setNumerics() {
     echo "flotsam { $2 }" >> "$1/system/fvSolution"
 }
 
-python() { PYTHONDONTWRITEBYTECODE=1 PYTHONPATH="$tutorials/common" "$FLOTSAM_PYTHON" "$@"; }
+python() { PYTHONDONTWRITEBYTECODE=1 PYTHONPATH="$tutorials/common:$here" "$FLOTSAM_PYTHON" "$@"; }

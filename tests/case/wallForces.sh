@@ -57,15 +57,9 @@ import sys
 
 import numpy as np
 
+import checks
+
 thickness, g, rest = 0.05, np.array([2, -9.6]), 0.4     # [m], [m/s2], time from which on all rests [s]
-failures = 0
-
-
-def check(what, found, expected, error):
-    global failures
-    isGood = abs(found - expected) <= error
-    failures += not isGood
-    print(f"{what}: {found:.6g}, {expected:.6g} to {error:.2g}{'' if isGood else ': FAILED'}")
 
 
 def mean(case, name, file="force"):
@@ -77,19 +71,19 @@ level = lambda x: 0.12 + (x - 0.2)*2/9.6
 bar, submerged = 0.04*0.03*thickness, 1000*0.04*0.03*thickness
 water = 1000*thickness*0.4*0.12 - submerged             # at x = 0.2 the level is the mean one
 bed, dam, all_ = (mean("one", name) for name in ("bed", "dam", "all"))
-check("contact on the bed", bed["contact"][1], submerged*g[1], 0.04*submerged*9.6)    # measured 2.8 %
-check("contact on the dam", dam["contact"][0], submerged*g[0], 0.01*submerged*9.6)
+checks.check("contact on the bed", bed["contact"][1], submerged*g[1], 0.04*submerged*9.6)    # measured 2.8 %
+checks.check("contact on the dam", dam["contact"][0], submerged*g[0], 0.01*submerged*9.6)
 for d in (0, 1):
-    check(f"water and bar on all walls, {'xy'[d]}", all_["total"][d], (water + 2000*bar)*g[d], 1e-3*water*9.6)
+    checks.check(f"water and bar on all walls, {'xy'[d]}", all_["total"][d], (water + 2000*bar)*g[d], 1e-3*water*9.6)
 depth = level(0.4)
-check("water on the dam", dam["pressure"][0], 0.5*1000*9.6*depth**2*thickness, 0.005*0.5*1000*9.6*depth**2*thickness)
+checks.check("water on the dam", dam["pressure"][0], 0.5*1000*9.6*depth**2*thickness, 0.005*0.5*1000*9.6*depth**2*thickness)
 moment = mean("one", "dam", "moment")
-check("arm of the water on the dam", -moment["pressure"][2]/dam["pressure"][0], depth/3, 5e-3*depth)
-check("arm of the bar on the dam", -moment["contact"][2]/dam["contact"][0], 0.015, 2e-3)
-check("its total", moment["total"][2], moment["pressure"][2] + moment["viscous"][2] + moment["contact"][2], 1e-9)
+checks.check("arm of the water on the dam", -moment["pressure"][2]/dam["pressure"][0], depth/3, 5e-3*depth)
+checks.check("arm of the bar on the dam", -moment["contact"][2]/dam["contact"][0], 0.015, 2e-3)
+checks.check("its total", moment["total"][2], moment["pressure"][2] + moment["viscous"][2] + moment["contact"][2], 1e-9)
 for name in ("bed", "dam", "all"):
     one, two = mean("one", name), mean("two", name)
     for part in one:
-        check(f"{name}, {part}, two processes", np.abs(one[part] - two[part]).max(), 0, 1e-5*water*9.6)
-sys.exit(failures)
+        checks.check(f"{name}, {part}, two processes", np.abs(one[part] - two[part]).max(), 0, 1e-5*water*9.6)
+sys.exit(checks.count())
 PY

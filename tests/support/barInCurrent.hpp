@@ -4,6 +4,8 @@
 
 #include "support/coupledRig.hpp"
 
+#include <doctest/doctest.h>
+
 #include <algorithm>
 
 namespace flotsam::barInCurrent
@@ -43,6 +45,29 @@ inline BodyDefinition makeBar(double density, const Vec3& position)
     for (double y : {-0.08, -0.04, 0.0, 0.04, 0.08})
         for (double x : {-0.08, 0.08}) bar.spheres.push_back({Vec3(x, y, 0), 0.02});
     return bar;
+}
+
+/// 1.2 s, until the flow is steady, of `held` and of the same bar fixed at `position`: its drag [N], and the largest number of repeats of a step of `held`.
+struct Beside { double drag = 0; int repeats = 0; };
+
+inline Beside runBesideFixed(Channel& channel, CoupledStep& held, const BodyDefinition& bar, const Vec3& position)
+{
+    held.start(channel.rest(), true);
+    Solid fixed;
+    fixed.shape = bar.shape;
+    fixed.pose.position = position;
+    CoupledStep still(channel.mesh, channel.halo, channel.fluid, channel.controls, channel.patches, Scene({{fixed, -1, {}}}, {}, Vec3::Zero()), nullptr, channel.timers);
+    still.start(channel.rest(), true);
+    Beside result;
+    for (int k = 0; k < 60; ++k)
+    {
+        REQUIRE(still.step(0.02).isAccepted);
+        const StepResult step = held.step(0.02);
+        REQUIRE(step.isAccepted);
+        result.repeats = std::max(result.repeats, step.solves - 1);
+    }
+    result.drag = still.records()[0].fluidForce[0];
+    return result;
 }
 
 } // namespace flotsam::barInCurrent

@@ -39,23 +39,7 @@ TEST_CASE("the stop carries the drag of the fixed bar")
     const DemSetup dem = makeDem(bar, position[0] + side/2 + 1e-9);
     CoupledStep held(channel.mesh, channel.halo, channel.fluid, channel.controls, channel.patches,
         Scene({}, {bar}, Vec3::Zero()), &dem, channel.timers);
-    held.start(channel.rest(), true);
-
-    Solid fixed;
-    fixed.shape = bar.shape;
-    fixed.pose.position = position;
-    CoupledStep still(channel.mesh, channel.halo, channel.fluid, channel.controls, channel.patches,
-        Scene({{fixed, -1, {}}}, {}, Vec3::Zero()), nullptr, channel.timers);
-    still.start(channel.rest(), true);
-    int repeats = 0;
-    for (int k = 0; k < 60; ++k)
-    {
-        REQUIRE(still.step(0.02).isAccepted);
-        const StepResult result = held.step(0.02);
-        REQUIRE(result.isAccepted);
-        repeats = std::max(repeats, result.solves - 1);
-    }
-    const double drag = still.records()[0].fluidForce[0];
+    const auto [drag, repeats] = runBesideFixed(channel, held, bar, position);
     const double contact = held.records()[0].contactForce[0];
     std::printf("drag fixed %.4f N, contact force held %.4f N (%.3f %%), largest number of repeats %d\n", drag, contact,
         100*(-contact/drag - 1), repeats);

@@ -39,21 +39,7 @@ TEST_CASE("a tether holds a bar in a current with the drag of the bar fixed")
     dem.box = {Vec3(0, 0, 0), Vec3(2, 1, 1)};
     dem.restraints = {tether(Vec3(-barInCurrent::side/2, 0, 0), Vec3(0.3, 0.5, 0.5), 0.3, 2e6, 1e4)};
     CoupledStep held(channel.mesh, channel.halo, channel.fluid, channel.controls, channel.patches, Scene({}, dem.bodies, Vec3::Zero()), &dem, channel.timers);
-    held.start(restState(channel.mesh), true);
-    Solid fixed;
-    fixed.shape = dem.bodies[0].shape;
-    fixed.pose.position = position;
-    CoupledStep still(channel.mesh, channel.halo, channel.fluid, channel.controls, channel.patches, Scene({{fixed, -1, {}}}, {}, Vec3::Zero()), nullptr, channel.timers);
-    still.start(restState(channel.mesh), true);
-    int repeats = 0;
-    for (int k = 0; k < 60; ++k)
-    {
-        REQUIRE(still.step(0.02).isAccepted);
-        const StepResult result = held.step(0.02);
-        REQUIRE(result.isAccepted);
-        repeats = std::max(repeats, result.solves - 1);
-    }
-    const double drag = still.records()[0].fluidForce[0];
+    const auto [drag, repeats] = barInCurrent::runBesideFixed(channel, held, dem.bodies[0], position);
     const RestraintLoad line = held.coupling()->restraintLoads()[0];
     const BodyRecord record = held.records()[0];
     std::printf("drag fixed %.4f N, of the held bar %.4f N, tension %.4f N (%.3f %%), stretched by %.3g m, speed %.2g m/s, turned by %.2g, largest number of repeats %d\n", drag, record.fluidForce[0],

@@ -5,7 +5,7 @@ import re
 
 TUTORIAL_SPEED = 0.45           # of the stream [m/s]
 SLOW = 0.25                     # a log is held when its speed, mean over half a second, is less than this share of the stream's
-# smaller than the tutorial's: little for the stream to choke at
+# the tutorial's, which the evaluations need as numbers
 CHANNEL = {"width": 0.40, "upstream": 1.90, "downstream": 0.70, "height": 0.32, "depth": 0.16}
 BAR = 0.02                      # diameter of the rack's bars, little thicker than an element: the clean rack of the tutorial would choke the fastest stream [m]
 
