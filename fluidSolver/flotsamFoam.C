@@ -273,7 +273,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     if (task == Task::WeighCells) weighCells(mesh, adapter, halo, bodies);
     if (task != Task::Run) return true;
 
-    const DemSetup dem = makeDemSetup(bodies, controls.numerics.demTimeStep, runTime.value());
+    const DemSetup dem = makeDemSetup(bodies, wallForces, controls.numerics.demTimeStep, runTime.value());
     CoupledStep step(adapter.mesh, halo, controls.fluid, controls.numerics, boundary, makeScene(bodies, gravity),
         bodies.bodies.empty() ? nullptr : &dem, timers);
     RunOutput output(runTime, adapter.mesh, halo, controls.fluid, bodies, timers);

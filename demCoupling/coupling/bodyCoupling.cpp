@@ -99,6 +99,7 @@ void BodyCoupling::runEngine(double duration, const std::vector<Load>& loads)
         touch_.wallLoads = engine_->meanWallLoads();
         touch_.peaks = engine_->peakContactForces();
         touch_.wallPeaks = engine_->peakWallForces();
+        touch_.groupPeaks = engine_->peakGroupForces();
         touch_.take(engine_->contacts(), setup_);
         touch_.restraints = engine_->restraintLoads();
         if (!engine_->hasContact()) newContact_.assign(newContact_.size(), Load()); // round-off of a free flight

@@ -61,6 +61,7 @@ public:
     const std::vector<Load>& wallLoads() const { return touch_.wallLoads; }       ///< time means of the last DEM run, moments about the origin of space
     const std::vector<Vec3>& contactPeaks() const { return touch_.peaks; }        ///< force in the sub-step of the last DEM run in which it was largest [N]
     const std::vector<Vec3>& wallPeaks() const { return touch_.wallPeaks; }
+    const std::vector<Vec3>& groupPeaks() const { return touch_.groupPeaks; }    ///< of DemSetup::wallGroups
     const std::vector<int>& contactCounts() const { return touch_.counts; }
     const std::vector<int>& wallContactCounts() const { return touch_.wallCounts; } ///< bodies that touch each wall
     const std::vector<RestraintLoad>& restraintLoads() const { return touch_.restraints; } ///< of the last DEM run; part of the contact loads

@@ -8,7 +8,7 @@ namespace flotsam
 
 ContactSummary::ContactSummary(const DemSetup& setup)
 :   wallLoads(setup.walls.size() + setup.movers.size()), peaks(setup.bodies.size(), Vec3::Zero()), wallPeaks(wallLoads.size(), Vec3::Zero()),
-    counts(setup.bodies.size(), 0), wallCounts(wallLoads.size(), 0), restraints(setup.restraints.size()) {}
+    groupPeaks(setup.wallGroups.size(), Vec3::Zero()), counts(setup.bodies.size(), 0), wallCounts(wallLoads.size(), 0), restraints(setup.restraints.size()) {}
 
 std::string ContactSummary::deepestPair(const DemSetup& setup) const
 {

@@ -14,6 +14,7 @@ struct ContactSummary
 {
     std::vector<Load> wallLoads;        ///< walls, then movers: time means of the run, moments about the origin of space
     std::vector<Vec3> peaks, wallPeaks; ///< contact force in the sub-step in which it was largest: of bodies; of walls, then movers [N]
+    std::vector<Vec3> groupPeaks;       ///< the same of DemSetup::wallGroups; not stored: they are of a step just made
     std::vector<int> counts, wallCounts; ///< contacts of each body; bodies that touch each wall
     std::vector<RestraintLoad> restraints;
     double largestOverlap = 0;          ///< of DEM surfaces [m]
@@ -36,7 +37,7 @@ struct ContactSummary
 template <class Archive, class Summary>
 void passSummary(Archive& archive, Summary& summary)
 {
-    passAll(archive, summary.wallLoads, summary.peaks, summary.wallPeaks, summary.counts, summary.wallCounts, summary.restraints,
+    passAll(archive, summary.wallLoads, summary.peaks, summary.wallPeaks, summary.groupPeaks, summary.counts, summary.wallCounts, summary.restraints,
         summary.largestOverlap, summary.deepestBody, summary.deepestOther, summary.pressing);
 }
 

@@ -42,13 +42,27 @@ void checkEntries(const BodiesInput& input, const FluidProperties& fluid)
                 " it could come in: the case has one fluid. Use 'beforeRelease held', or two fluids");
 }
 
-DemSetup makeDemSetup(const BodiesInput& input, double timeStep, double startTime)
+namespace
+{
+
+std::vector<int> wallsOf(const WallForceGroup& group, const BodiesInput& input)
+{
+    std::vector<int> walls;
+    for (std::size_t w = 0; w < input.walls.size(); ++w)
+        if (std::find(group.patchNames.begin(), group.patchNames.end(), input.walls[w].patch) != group.patchNames.end()) walls.push_back(int(w));
+    return walls;
+}
+
+} // namespace
+
+DemSetup makeDemSetup(const BodiesInput& input, const std::vector<WallForceGroup>& groups, double timeStep, double startTime)
 {
     DemSetup setup;
     setup.bodies = input.bodies;
     setup.walls = input.walls;
     setup.movers = input.movers;
     setup.restraints = input.restraints;
+    for (const WallForceGroup& group : groups) setup.wallGroups.push_back(wallsOf(group, input));
     setup.startTime = startTime;
     setup.nMaterials = int(input.materials.size());
     setup.laws = input.laws;
@@ -62,13 +76,14 @@ std::vector<ContactForce> contactForces(const std::vector<WallForceGroup>& group
 {
     std::vector<ContactForce> result(groups.size());
     for (std::size_t g = 0; g < groups.size() && bodies; ++g)
-        for (std::size_t w = 0; w < input.walls.size(); ++w)
+    {
+        for (int w : wallsOf(groups[g], input))
         {
-            const std::vector<std::string>& names = groups[g].patchNames;
-            if (std::find(names.begin(), names.end(), input.walls[w].patch) == names.end()) continue;
             result[g].force += bodies->wallLoads()[w].force;
             result[g].moment += bodies->wallLoads()[w].moment;
         }
+        result[g].peak = bodies->groupPeaks()[g];
+    }
     return result;
 }
 

@@ -303,6 +303,8 @@ std::vector<Load> LiggghtsEngine::meanWallLoads() const
 
 std::vector<Vec3> LiggghtsEngine::peakContactForces() const { return first(impl_->model.tally->peakOnBodies(), impl_->nBodies); }
 
+std::vector<Vec3> LiggghtsEngine::peakGroupForces() const { return impl_->model.tally->peakOnGroups(); }
+
 std::vector<Vec3> LiggghtsEngine::peakWallForces() const
 {
     std::vector<Vec3> peaks = impl_->model.tally->peakOnWalls();

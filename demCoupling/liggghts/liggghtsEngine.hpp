@@ -20,6 +20,7 @@ struct DemSetup
     std::vector<WallDefinition> walls;
     std::vector<MoverDefinition> movers;
     std::vector<RestraintDefinition> restraints;
+    std::vector<std::vector<int>> wallGroups;   ///< walls whose forces are added up before the largest is kept
     double startTime = 0;               ///< at which the movers begin [s]
     int nMaterials = 1;
     std::vector<ContactLaw> laws;       ///< nMaterials*nMaterials, symmetric
@@ -62,6 +63,7 @@ public:
     /// The first force of an advance is the last of the one before and does not count.
     std::vector<Vec3> peakContactForces() const;
     std::vector<Vec3> peakWallForces() const;
+    std::vector<Vec3> peakGroupForces() const;  ///< the same of the sums over DemSetup::wallGroups
     std::vector<Contact> contacts() const;      ///< movers count as walls behind the walls
     std::vector<RestraintLoad> restraintLoads() const;  ///< of the last advance; forces and moments on bodies and movers are part of their contact loads
     bool hasContact() const;            ///< any force of contact or restraints in any sub-step of the last advance

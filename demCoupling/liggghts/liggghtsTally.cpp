@@ -48,11 +48,10 @@ OwnFix* installFix(LiggghtsModel& model, const std::string& id, Arguments&... ar
     return fix;
 }
 
-void keepLargest(const std::vector<Load>& now, std::vector<Vec3>& peaks)
+void keepLarger(const Vec3& now, Vec3& peak)
 {
-    for (size_t k = 0; k < now.size(); ++k)
-        if (now[k].force.squaredNorm() > peaks[k].squaredNorm())
-            peaks[k] = now[k].force;
+    if (now.squaredNorm() > peak.squaredNorm())
+        peak = now;
 }
 
 Load meshLoad(LAMMPS_NS::FixMeshSurface& mesh)
@@ -285,6 +284,22 @@ void ContactTally::clearPeaks()
 {
     bodyPeak_.assign(bodyNow_.size(), Vec3::Zero());
     wallPeak_.assign(wallNow_.size(), Vec3::Zero());
+    groupPeak_.assign(wallGroups_.size(), Vec3::Zero());
+}
+
+void ContactTally::keepPeaks()
+{
+    for (size_t b = 0; b < bodyNow_.size(); ++b)
+        keepLarger(bodyNow_[b].force, bodyPeak_[b]);
+    for (size_t w = 0; w < wallNow_.size(); ++w)
+        keepLarger(wallNow_[w].force, wallPeak_[w]);
+    for (size_t g = 0; g < wallGroups_.size(); ++g)
+    {
+        Vec3 sum = Vec3::Zero();
+        for (const int w : wallGroups_[g])
+            sum += wallNow_[static_cast<size_t>(w)].force;
+        keepLarger(sum, groupPeak_[g]);
+    }
 }
 
 void ContactTally::start()
@@ -319,8 +334,7 @@ void ContactTally::end_of_step()
     {
         hasContact_ = true;
         add(step_);
-        keepLargest(bodyNow_, bodyPeak_);
-        keepLargest(wallNow_, wallPeak_);
+        keepPeaks();
     }
     model_.restraints->endStep(step_);
 }

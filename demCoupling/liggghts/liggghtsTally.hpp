@@ -21,7 +21,7 @@ class ContactTally : public LAMMPS_NS::Fix
 {
 public:
     ContactTally(LAMMPS_NS::LAMMPS* lammps, int count, char** arguments, LiggghtsModel& model, const DemSetup& setup)
-        : LAMMPS_NS::Fix(lammps, count, arguments), model_(model), damping_(model, setup), meshTurns_(model), facets_(model)
+        : LAMMPS_NS::Fix(lammps, count, arguments), model_(model), damping_(model, setup), meshTurns_(model), facets_(model), wallGroups_(setup.wallGroups)
     {
         nevery = 1;
     }
@@ -56,6 +56,7 @@ public:
     /// Force of the sub-step in which it was largest since start().
     const std::vector<Vec3>& peakOnBodies() const { return bodyPeak_; }
     const std::vector<Vec3>& peakOnWalls() const { return wallPeak_; }
+    const std::vector<Vec3>& peakOnGroups() const { return groupPeak_; }
     bool hasContact() const { return hasContact_; }
 
     /// Loads of the walls at this instant, moments about the origin of space: part of the state.
@@ -74,13 +75,15 @@ private:
     void readSharedMeshMoments();
     void add(double weight);
     void clearPeaks();
+    void keepPeaks();
 
     LiggghtsModel& model_;
     SphereDamping damping_;
     MeshTurns meshTurns_;
     FacetChoice facets_;
     std::vector<Load> bodyNow_, bodySum_, bodyMean_, wallNow_, wallSum_, wallMean_;
-    std::vector<Vec3> bodyPeak_, wallPeak_;
+    std::vector<std::vector<int>> wallGroups_;
+    std::vector<Vec3> bodyPeak_, wallPeak_, groupPeak_;
     std::vector<std::vector<int>> nearPlane_; ///< per wall: spheres that can touch it before the next rebuild
     std::vector<MeshTouch> touches_;
     bool hasContact_ = false, isRebuilt_ = false;

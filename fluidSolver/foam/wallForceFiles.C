@@ -13,32 +13,34 @@ namespace flotsam
 namespace
 {
 
-const char* const parts[] = {"total", "pressure", "viscous", "contact"};
+const char* const parts[] = {"total", "pressure", "viscous", "contact", "peak"};   // the last of forces alone
 
 std::string header(const WallForceGroup& group, const SimplexMesh& mesh, bool isMoment)
 {
     std::string s = text("# ", isMoment ? "Moment [N m]" : "Force [N]", " on patches ", joined(group.patchNames));
     if (isMoment) s += text(", about (", group.origin[0], ' ', group.origin[1], ' ', group.origin[2], ')');
     if (mesh.dim == 2) s += text(", of the mesh's thickness, ", mesh.thickness, " m");
-    s += "\n# pressure and viscous: of the fluid, along the wall's normal and along the wall; contact: of bodies, mean over the step; total: their sum\n";
+    s += "\n# pressure and viscous: of the fluid, along the wall's normal and along the wall; contact: of bodies, mean over the step; total: their sum";
+    s += isMoment ? "\n" : "; peak: of bodies, at the instant of the step at which it was largest\n";
     char column[32];
     std::snprintf(column, sizeof column, "# %-16s", "Time");
     s += column;
-    for (const char* part : parts)
+    for (int k = 0; k < (isMoment ? 4 : 5); ++k)
         for (char axis : {'x', 'y', 'z'})
         {
-            std::snprintf(column, sizeof column, " %18s", text(part, '_', axis).c_str());
+            std::snprintf(column, sizeof column, " %18s", text(parts[k], '_', axis).c_str());
             s += column;
         }
     return s + '\n';
 }
 
-void writeLine(std::ofstream& file, double time, const Vec3& pressure, const Vec3& friction, const Vec3& contact)
+void writeLine(std::ofstream& file, double time, std::vector<Vec3> values)
 {
+    values.insert(values.begin(), values[0] + values[1] + values[2]);
     char column[40];
     std::snprintf(column, sizeof column, "%-18.12g", time);
     std::string line = column;
-    for (const Vec3& v : {Vec3(pressure + friction + contact), pressure, friction, contact})
+    for (const Vec3& v : values)
         for (int d = 0; d < 3; ++d)
         {
             std::snprintf(column, sizeof column, " %18.10e", v[d]);
@@ -93,8 +95,8 @@ void WallForceFiles::write(double time, const std::vector<PatchForce>& onPatches
             f.frictionMoment += onPatches[p].frictionMoment;
         }
         const auto about = [&](const Vec3& moment, const Vec3& force) { return inPlane(moment - groups_[g].origin.cross(force), mesh_); };
-        writeLine(files_[g].force, time, f.pressure, f.friction, contact[g].force);
-        writeLine(files_[g].moment, time, about(f.pressureMoment, f.pressure), about(f.frictionMoment, f.friction), about(contact[g].moment, contact[g].force));
+        writeLine(files_[g].force, time, {f.pressure, f.friction, contact[g].force, contact[g].peak});
+        writeLine(files_[g].moment, time, {about(f.pressureMoment, f.pressure), about(f.frictionMoment, f.friction), about(contact[g].moment, contact[g].force)});
     }
 }
 

@@ -134,6 +134,32 @@ TEST_CASE("the largest force of an impact is that of spring and dashpot, on body
     }
 }
 
+TEST_CASE("the largest force on walls together is that of an instant, not the sum of each wall's largest")
+{
+    constexpr double radius = 0.01, mass = 0.05, speed = 0.3, height = 0.1;
+    ContactLaw law;
+    law.restitution = 1;
+    const WallDefinition ceiling = plane(Vec3(0, 0, height), -Vec3::UnitZ());
+    for (const double later : {0.0, 0.002}) // way that the upper ball has more [m]: none, or 7 ms, some ten times a contact
+    {
+        CAPTURE(later);
+        DemSetup setup = scene({ball(radius, mass, Vec3(0, 0, radius + 1e-7)), ball(radius, mass, Vec3(0.05, 0, height - radius - 1e-7 - later))}, {floorPlane, ceiling}, law);
+        setup.bodies[0].motion.velocity.z() = -speed;
+        setup.bodies[1].motion.velocity.z() = speed;
+        setup.wallGroups = {{0}, {0, 1}, {}};
+        setup.timeStep = 2e-6;
+        LiggghtsEngine engine(setup);
+        engine.advance(0.02);
+        const double largest = speed * std::sqrt(law.stiffness * mass);
+        const std::vector<Vec3> walls = engine.peakWallForces(), groups = engine.peakGroupForces();
+        CHECK(walls[0].z() == near(-largest, 0.012));
+        CHECK(walls[1].z() == near(largest, 0.012));
+        CHECK(groups[0] == walls[0]);
+        CHECK(groups[1].norm() == within(later > 0 ? largest : 0, 0.012 * largest));
+        CHECK(groups[2].isZero(0));
+    }
+}
+
 TEST_CASE("bars: the three ways of sharing the law over a face")
 {
     for (const double corner : {0.0, 0.00125}) // radius, 0: none
