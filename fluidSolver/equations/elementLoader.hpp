@@ -211,7 +211,7 @@ template<int D, class Real>
 inline void loadTauContinuity(const ElementRates<Real>& rates, const Real& h, const Real& timeShare, const FlowStepData& step, const NumericsControls& controls,
     ElementData<D, Real>& data)
 {
-    const Real rate = timeShare*penaltyRate<Real>(step.time.dt, step.gravity, controls.penaltyRate, h);
+    const Real rate = timeShare*penaltyRate<Real>(step.time.dt, step.gravity, step.speed, controls.penaltyRate, h);
     data.tauCont = controls.tauContFactor*(controls.tauContWithTimeStep ? rates.tauContinuity(data.rho, h, rate)
         : steadyTauContinuity<Real>(data.rho, squared<D>(data.advection), h, data.mu/data.rho));
 }

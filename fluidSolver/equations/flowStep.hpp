@@ -22,6 +22,7 @@ struct FlowStepData
 {
     TimeScheme time;
     double gravity = 0;                         ///< its size [m/s^2]; bounds penaltyRate()
+    double speed = 0;                           ///< largest of the fluid at t^n, without gravity [m/s]; bounds penaltyRate() then
     const FlowState* state = nullptr;           ///< t^n, t^(n-1); alpha already at t^(n+1)
     const Cover* cover = nullptr;               ///< null: no solids
     const GasRegion* gas = nullptr;             ///< null: no gas is left out

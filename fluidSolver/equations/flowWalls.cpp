@@ -163,7 +163,7 @@ void FlowEquation::sumSwept()
         }
 }
 
-double FlowEquation::penaltyRateOf(int e) const { return penaltyRate(step_.time.dt, step_.gravity, controls_.penaltyRate, mesh_.h[e]); }
+double FlowEquation::penaltyRateOf(int e) const { return penaltyRate(step_.time.dt, step_.gravity, step_.speed, controls_.penaltyRate, mesh_.h[e]); }
 
 void FlowEquation::setFreeBodies(const std::vector<FreeBody>& bodies, double dt)
 {

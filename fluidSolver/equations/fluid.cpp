@@ -157,6 +157,7 @@ void Fluid::assemble()
     FlowStepData step;
     step.time = time_;
     step.gravity = std::hypot(fluid_.gravity[0], fluid_.gravity[1], fluid_.gravity[2]);
+    if (step.gravity == 0) step.speed = largestSpeed(mesh_, halo_, state_.u);
     step.state = &state_;
     step.cover = cover;
     step.gas = gas_.get();

@@ -9,12 +9,14 @@ namespace flotsam
 
 /// 1/dt in terms that resist velocities themselves, not their changes [1/s]: grad-div (tau_cont) and the normal velocity on solids. Each step takes its part of what P1 cannot
 /// do without divergence or along a cut wall; with 1/dt itself all of it were taken as dt goes to zero, and bodies would answer the later the smaller the steps. It counts up to
-/// `most` times sqrt(gravity/h), the rate at which waves as long as an element swing; gravity [m/s^2] 0: without bound (docs/numerics, 2.14).
+/// `most` times sqrt(gravity/h), the rate at which waves as long as an element swing; without gravity [m/s^2] to a third of `most` times speed/h, at which the fastest fluid [m/s]
+/// passes an element (as in steps of a Courant number of 0.5), and while all is at rest without bound (docs/numerics, 2.14).
 template<class Real>
-inline Real penaltyRate(double dt, double gravity, double most, const Real& h)
+inline Real penaltyRate(double dt, double gravity, double speed, double most, const Real& h)
 {
     const Real rate = Real{} + 1/dt;
-    return gravity > 0 ? smaller<Real>(rate, most*squareRoot<Real>(gravity/h)) : rate;
+    if (gravity > 0) return smaller<Real>(rate, most*squareRoot<Real>(gravity/h));
+    return speed > 0 ? smaller<Real>(rate, most/3*speed/h) : rate;
 }
 
 /// Squares of the rates at which time steps, convection and viscosity change what an element holds [1/s^2], the viscous one by nu/h^2.

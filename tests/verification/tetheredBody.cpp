@@ -143,7 +143,7 @@ Swing swingInWater(double dt)
 TEST_CASE("a bar on a soft spring under water: period and decay are those of the water, not of the step")
 {
     const double dry = 2*M_PI*std::sqrt(590*barInCurrent::side*barInCurrent::side/3000);
-    const Swing coarse = swingInWater(0.04), fine = swingInWater(0.02);
+    const Swing coarse = swingInWater(0.02), fine = swingInWater(0.005);
     for (const Swing& s : {coarse, fine}) std::printf("period %.4f s (dry %.4f s), amplitude over that of the swing before %.4f\n", s.period, dry, s.decrement);
     CHECK(fine.period > 1.6*dry); // added mass: 1.19 times a square's displaced mass in open water
     CHECK(fine.period < 2*dry);
