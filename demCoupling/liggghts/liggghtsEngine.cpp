@@ -302,7 +302,6 @@ std::vector<Load> LiggghtsEngine::meanWallLoads() const
 }
 
 std::vector<Vec3> LiggghtsEngine::peakContactForces() const { return first(impl_->model.tally->peakOnBodies(), impl_->nBodies); }
-
 std::vector<Vec3> LiggghtsEngine::peakGroupForces() const { return impl_->model.tally->peakOnGroups(); }
 
 std::vector<Vec3> LiggghtsEngine::peakWallForces() const
@@ -318,8 +317,7 @@ std::vector<Contact> LiggghtsEngine::contacts() const
     std::vector<Contact> result = listContacts(impl_->model, impl_->setup);
     const int n = impl_->model.firstMover, walls = static_cast<int>(impl_->setup.walls.size());
     for (Contact& c : result)
-        if (c.other >= n)
-            c.other = -1 - (walls + c.other - n);
+        if (c.other >= n) c.other = -1 - (walls + c.other - n);
     return result;
 }
 
