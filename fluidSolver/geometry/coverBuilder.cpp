@@ -89,6 +89,7 @@ CoverBuilder::CoverBuilder(const SimplexMesh& mesh, const NodeGraph& graph, cons
 
 const Cover& CoverBuilder::build(const std::vector<Solid>& solids)
 {
+    lastSolids_.clear();
     if (isNeedless_ || !sameFixedSolids(solids)) cutFixedSolids(solids);
     sampleMovingSolids(solids);
     return cutMovingSolids(solids);
@@ -96,13 +97,26 @@ const Cover& CoverBuilder::build(const std::vector<Solid>& solids)
 
 const Cover& CoverBuilder::buildExactVolume(std::vector<Solid>& solids)
 {
+    if (isAsBefore(solids)) return cover_;
     chooseThin(solids);
     const bool isNew = !sameFixedSolids(solids);
     if (isNew) correctFixedOffsets(solids);
     if (isNew || isNeedless_) cutFixedSolids(solids);
     sampleMovingSolids(solids);
     correctOffsets(solids);
+    const auto isFree = [](const Solid& s) { return s.kind == Solid::Kind::Free; };
+    lastSolids_ = std::any_of(solids.begin(), solids.end(), isFree) ? std::vector<Solid>() : solids;
     return cutMovingSolids(solids);
+}
+
+/// Nothing is to be cut: every solid is where it was at the last call, and none is free (those get better offsets in every call).
+bool CoverBuilder::isAsBefore(const std::vector<Solid>& solids) const
+{
+    const auto isSame = [](const Solid& now, const Solid& then)
+    {
+        return now.kind == then.kind && isSameFixed(now, then) && now.isThin == then.isThin && now.planeFaces == then.planeFaces;
+    };
+    return !isNeedless_ && !solids.empty() && std::equal(solids.begin(), solids.end(), lastSolids_.begin(), lastSolids_.end(), isSame);
 }
 
 // --- elements near solids

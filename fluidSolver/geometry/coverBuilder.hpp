@@ -151,6 +151,7 @@ private:
     static bool needsOffsets(const Solid& solid);
     static bool isSameFixed(const Solid& now, const Solid& then);
     bool sameFixedSolids(const std::vector<Solid>& solids) const;
+    bool isAsBefore(const std::vector<Solid>& solids) const;
     void cutFixedSolids(const std::vector<Solid>& solids);
     void sampleMovingSolids(const std::vector<Solid>& solids);
     void sample(const Solid& solid, std::vector<Sample>& samples) const;
@@ -235,6 +236,7 @@ private:
     std::vector<char> isBoundaryNode_;
     std::array<double, 3> lower_{}, upper_{};   // of the whole mesh, in its plane
 
+    std::vector<Solid> lastSolids_;     // of the last buildExactVolume() without free ones, else empty
     bool hasFixedCover_ = false;
     std::vector<Solid> fixedSolids_;    // those (with gaps for the others) that fixedCover_ was cut with
     Cover fixedCover_;                  // the fixed solids alone

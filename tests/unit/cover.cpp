@@ -177,6 +177,42 @@ TEST_CASE("a cover updated while solids move is the cover made anew")
     }
 }
 
+TEST_CASE("structures that stand, move and stand again: the cover that is kept is the cover made anew")
+{
+    for (const int dim : {2, 3})
+    {
+        const CoverScene scene(dim, dim == 2 ? 30 : 12);
+        CoverBuilder kept(scene.mesh, scene.graph, scene.halo);
+        std::vector<Solid> solids = makeSolids(0);
+        solids[1].kind = Solid::Kind::Prescribed;
+        solids.push_back(makeSolid(makeBox(Vec3::Zero(), {0.01, 0.4, 1}), {0.6, 0.3, 0}, Solid::Kind::Fixed)); // thin
+        const auto check = [&]
+        {
+            std::vector<Solid> others = solids;
+            const Cover fresh = cutMeshWithExactVolume(scene.mesh, scene.graph, scene.halo, others);
+            const Cover& cover = kept.buildExactVolume(solids);
+            checkSame(summary(scene, cover), summary(scene, fresh));
+            CHECK(cover.distance == fresh.distance);
+            CHECK(cover.nearestSolid == fresh.nearestSolid);
+            CHECK(solids[3].isThin);
+        };
+        for (const double time : {0.0, 0.0, 1.0, 1.0, 0.0})
+        {
+            for (int s : {1, 2}) solids[s].pose = makeSolids(time)[s].pose;
+            check();
+        }
+        solids[1].pose.orientation = Eigen::AngleAxisd(0.3, Vec3::UnitZ());
+        check();
+        std::vector<Solid> elsewhere = makeSolids(2);
+        elsewhere.push_back(solids[3]);
+        kept.build(elsewhere);
+        check();
+        solids.pop_back();
+        solids.push_back(makeSolid(makeBox(Vec3::Zero(), {0.01, 0.4, 1}), {0.6, -0.1, 0}, Solid::Kind::Fixed));
+        check();
+    }
+}
+
 TEST_CASE("the cover does not depend on the number of ranks")
 {
     for (const int dim : {2, 3})
