@@ -56,10 +56,17 @@ Vec3 inPlane(Vec3 moment, const SimplexMesh& mesh)
     return moment;
 }
 
+std::vector<std::string> namesOf(const std::vector<WallForceGroup>& groups)
+{
+    std::vector<std::string> names;
+    for (const WallForceGroup& group : groups) names.push_back(group.name);
+    return names;
+}
+
 } // namespace
 
 WallForceFiles::WallForceFiles(const Foam::Time& runTime, const SimplexMesh& mesh, std::vector<WallForceGroup> groups)
-:   mesh_(mesh), groups_(std::move(groups))
+:   mesh_(mesh), groups_(std::move(groups)), statistics_(namesOf(groups_))
 {
     if (!Foam::Pstream::master()) return;
     files_.resize(groups_.size());
@@ -82,7 +89,7 @@ void WallForceFiles::open(const Foam::Time& runTime, const WallForceGroup& group
     }
 }
 
-void WallForceFiles::write(double time, const std::vector<PatchForce>& onPatches, const std::vector<ContactForce>& contact)
+void WallForceFiles::write(double time, double dt, const std::vector<PatchForce>& onPatches, const std::vector<ContactForce>& contact)
 {
     for (std::size_t g = 0; g < files_.size(); ++g)
     {
@@ -94,6 +101,8 @@ void WallForceFiles::write(double time, const std::vector<PatchForce>& onPatches
             f.pressureMoment += onPatches[p].pressureMoment;
             f.frictionMoment += onPatches[p].frictionMoment;
         }
+        const Vec3 fluid = f.pressure + f.friction;
+        statistics_.add(g, dt, fluid.data(), contact[g].force.data(), contact[g].peak.data());
         const auto about = [&](const Vec3& moment, const Vec3& force) { return inPlane(moment - groups_[g].origin.cross(force), mesh_); };
         writeLine(files_[g].force, time, {f.pressure, f.friction, contact[g].force, contact[g].peak});
         writeLine(files_[g].moment, time, {about(f.pressureMoment, f.pressure), about(f.frictionMoment, f.friction), about(contact[g].moment, contact[g].force)});

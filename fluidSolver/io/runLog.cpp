@@ -163,6 +163,20 @@ std::vector<MemberForces> ForceStatistics::result() const
     return list;
 }
 
+std::string forceTable(const std::string& of, const std::vector<MemberForces>& members)
+{
+    if (members.empty()) return "";
+    std::string text = "\n  " + format("%-24s", ("forces on " + of + " [N]").c_str()) + "   mean of water (x y z)               mean of contact (x y z)"
+        "             largest: water   contact       both    impact\n";
+    for (const MemberForces& m : members)
+    {
+        text += format("  %-22s %11.4g %11.4g %11.4g %11.4g %11.4g %11.4g %15.4g %9.4g %10.4g %9.4g\n", m.name.c_str(),
+            m.meanFluid[0], m.meanFluid[1], m.meanFluid[2], m.meanContact[0], m.meanContact[1], m.meanContact[2],
+            m.maxFluid, m.maxContact, m.maxTotal, m.peakContact);
+    }
+    return text;
+}
+
 std::vector<double> ForceStatistics::values() const
 {
     std::vector<double> list;
@@ -274,17 +288,7 @@ std::string RunLog::summary(const RunSummary& s)
         text += format("  basins without a given pressure: surfaces swept %.3g m^3 more than these can give; their gas made room\n", s.unbalancedVolume);
     }
 
-    if (!s.structures.empty())
-    {
-        text += "\n  forces on structures [N]   mean of water (x y z)               mean of contact (x y z)"
-                "             largest: water   contact       both    impact\n";
-        for (const MemberForces& m : s.structures)
-        {
-            text += format("  %-22s %11.4g %11.4g %11.4g %11.4g %11.4g %11.4g %15.4g %9.4g %10.4g %9.4g\n", m.name.c_str(),
-                m.meanFluid[0], m.meanFluid[1], m.meanFluid[2], m.meanContact[0], m.meanContact[1], m.meanContact[2],
-                m.maxFluid, m.maxContact, m.maxTotal, m.peakContact);
-        }
-    }
+    text += forceTable("structures", s.structures);
     return text;
 }
 

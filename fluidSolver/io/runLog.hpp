@@ -103,6 +103,9 @@ private:
     std::vector<Sums> sums_;
 };
 
+/// Table of the summary, a line for each member; empty without. of: word for what they are.
+std::string forceTable(const std::string& of, const std::vector<MemberForces>& members);
+
 /// Liquid volumes [m^3] since the start.
 struct MassBalance
 {

@@ -85,6 +85,14 @@ moment = mean("one", "dam", "moment")
 checks.check("arm of the water on the dam", -moment["pressure"][2]/dam["pressure"][0], depth/3, 5e-3*depth)
 checks.check("arm of the bar on the dam", -moment["contact"][2]/dam["contact"][0], 0.015, 2e-3)
 checks.check("its total", moment["total"][2], moment["pressure"][2] + moment["viscous"][2] + moment["contact"][2], 1e-9)
+lines = [line.split() for line in open("one/log.flotsamFoam", encoding="utf-8")]
+lines = lines[[line[:3] for line in lines].index(["forces", "on", "patches"]) + 1:]
+for words, name in zip(lines, ("bed", "dam", "all")):   # the table at the end: means of water and contact, largest of them, of their sum, of an impact
+    table = np.loadtxt(f"one/postProcessing/{name}/0/force.dat")[:, 1:].reshape(-1, 5, 3)
+    fluid, sizes = table[:, 1] + table[:, 2], lambda v: np.linalg.norm(v, axis=1).max()
+    expected = [*fluid.mean(axis=0), *table[:, 3].mean(axis=0), sizes(fluid), sizes(table[:, 3]), sizes(table[:, 0]), sizes(table[:, 4])]
+    checks.check(f"{name}: its line of the summary", np.abs(np.array(words[1:], float) - expected).max(), 0, 1e-3*water)
+    checks.check("and its name", float(words[0] == name), 1, 0)
 for name in ("bed", "dam", "all"):
     one, two = mean("one", name), mean("two", name)
     for part in one:
