@@ -26,6 +26,14 @@ std::vector<std::string> namesOf(const Foam::polyBoundaryMesh& patches)
     return names;
 }
 
+/// Of a patch, or of a group of patches. A loop: newer versions' lists of pointers have no iterators for algorithms.
+bool isMeant(const Foam::keyType& name, const Foam::polyBoundaryMesh& patches)
+{
+    for (const Foam::polyPatch& patch : patches)
+        if (patch.name() == name || patch.inGroups().found(name)) return true;
+    return false;
+}
+
 } // namespace
 
 void checkFunctionObjects(const Foam::dictionary& functions)
@@ -47,8 +55,7 @@ std::vector<std::string> strayPatches(const Foam::dictionary& boundaryField, con
     for (const Foam::entry& e : boundaryField)
     {
         const Foam::keyType& name = e.keyword();
-        const auto isMeant = [&](const Foam::polyPatch& patch) { return patch.name() == name || patch.inGroups().found(name); };
-        if (name.isLiteral() && e.isDict() && std::none_of(patches.begin(), patches.end(), isMeant)) strays.push_back(name);
+        if (name.isLiteral() && e.isDict() && !isMeant(name, patches)) strays.push_back(name);
     }
     return strays;
 }
