@@ -79,18 +79,31 @@ TEST_CASE("files: columns, moments about the origin, total; none is written over
     f.friction = Vec3(10, 20, 0);
     f.pressureMoment = Vec3(0, 0, 5);
     f.frictionMoment = Vec3(0, 0, 50);
-    const std::vector<ContactForce> contact{{Vec3(100, 200, 300), Vec3(7, 8, 500)}};
+    const std::vector<ContactForce> contact{{Vec3(100, 200, 300), Vec3(7, 8, 500), Vec3(400, 500, 600)}};
     const std::string folder = channel.foam.time().globalPath() + "/postProcessing/bed/0/";
     for (const char* number : {"", "_1", "_2"})
     {
         {
             WallForceFiles files(channel.foam.time(), channel.adapter.mesh, groups);
-            files.write(0.25, forces, contact);
+            files.write(0.25, 0.1, forces, contact);
         }
         MPI_Barrier(MPI_COMM_WORLD);
-        CHECK(lastLine(folder + "force" + number + ".dat") == std::vector<double>{0.25, 111, 222, 300, 1, 2, 0, 10, 20, 0, 100, 200, 300});
+        CHECK(lastLine(folder + "force" + number + ".dat") == std::vector<double>{0.25, 111, 222, 300, 1, 2, 0, 10, 20, 0, 100, 200, 300, 400, 500, 600});
         // less (1 0 0) x force; the parts out of the plane are not those of one layer of cells
         CHECK(lastLine(folder + "moment" + number + ".dat") == std::vector<double>{0.25, 0, 0, 333, 0, 0, 3, 0, 0, 30, 0, 0, 300});
         MPI_Barrier(MPI_COMM_WORLD);
     }
+}
+
+TEST_CASE("summary: means over the time of the steps, largest forces")
+{
+    Channel channel;
+    const auto groups = channel.read("wallForces { bed { patches (floor); } }");
+    std::vector<PatchForce> forces(channel.patches.size());
+    WallForceFiles files(channel.foam.time(), channel.adapter.mesh, groups);
+    forces[groups[0].patches[0]].pressure = Vec3(4, 0, 0);
+    files.write(0.1, 0.1, forces, {ContactForce()});
+    forces[groups[0].patches[0]].pressure = Vec3(0, 3, 0);
+    files.write(0.4, 0.3, forces, {{Vec3(0, 1, 0), Vec3::Zero(), Vec3(0, 0, 9)}});
+    if (Foam::Pstream::master()) CHECK(has(files.summary(), "bed                              1        2.25           0           0        0.75           0               4         1          4         9\n"));
 }
