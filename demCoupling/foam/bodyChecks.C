@@ -65,6 +65,12 @@ Stream streamAt(const BodyDefinition& body, const SimplexMesh& mesh, const Halo&
     return {};
 }
 
+bool isRestrained(int body, const BodiesInput& input)
+{
+    const auto holds = [&](const RestraintDefinition& r) { return r.end.body == body || r.other.body == body; };
+    return std::any_of(input.restraints.begin(), input.restraints.end(), holds);
+}
+
 } // namespace
 
 std::string bodyInStream(const BodiesInput& input, const SimplexMesh& mesh, const Halo& halo, const FluidProperties& fluid, const FlowState& state, double time)
@@ -86,8 +92,9 @@ std::string bodyInStream(const BodiesInput& input, const SimplexMesh& mesh, cons
         const Stream stream = streamAt(body, mesh, halo, state, shortest);
         const Vec3& u = stream.velocity;
         if (!stream.isThere || u.norm() <= slow*std::sqrt(gravity*body.thinnest)) continue;
-        return text("body ", body.name, " is let go at rest in a stream of ", u.norm(), " m/s that is there from the start: the first step throws it along with a good part of that speed."
-            " Let it move with the stream, `velocity (", u[0], ' ', u[1], ' ', u[2], ");`, or hold it until the stream has found its way around it, `releaseTime`");
+        const std::string doubt = text("body ", body.name, " is let go at rest in a stream of ", u.norm(), " m/s that is there from the start: the first step throws it along with a good part of that speed");
+        if (isRestrained(int(&body - input.bodies.data()), input)) return doubt + ", and its restraints stop it with a jerk. Hold it until the stream has found its way around it, `releaseTime`";
+        return text(doubt, ". Let it move with the stream, `velocity (", u[0], ' ', u[1], ' ', u[2], ");`, or hold it until the stream has found its way around it, `releaseTime`");
     }
     return "";
 }

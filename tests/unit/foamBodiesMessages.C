@@ -307,6 +307,7 @@ TEST_CASE("a body that is let go at rest in a stream that is there from the star
     FlowState state;
     FluidProperties fluid;
     fluid.gravity = {0, -9.81, 0};
+    std::string restraints;
     const auto doubt = [&](const std::string& rest, double speed, const std::function<double(double y)>& alpha = [](double) { return 1.0; }, double time = 0)
     {
         state.u.assign(3*std::size_t(mesh.nNodes), 0.0);
@@ -316,7 +317,7 @@ TEST_CASE("a body that is let go at rest in a stream that is there from the star
             state.alpha[i] = alpha(mesh.spacePoint(i)[1]);
             state.u[3*std::size_t(i)] = speed;
         }
-        const BodiesInput input = s.read("bodies { crate { shape { type box; size (0.3 0.3 0.3); } density 600; position (0.5 0.5 0.2); " + rest + " } }");
+        const BodiesInput input = s.read("bodies { crate { shape { type box; size (0.3 0.3 0.3); } density 600; position (0.5 0.5 0.2); " + rest + " } } " + restraints);
         return bodyInStream(input, mesh, s.halo, fluid, state, time);
     };
     CHECK(has(doubt("", 1), "body crate is let go at rest in a stream of 1 m/s"));
@@ -330,6 +331,9 @@ TEST_CASE("a body that is let go at rest in a stream that is there from the star
     const auto pool = [](double y) { return y < 0.2 ? 1.0 : 0.0; };
     CHECK(doubt("", 1, pool).empty());                  // wind
     CHECK(has(doubt("", 1, [](double y) { return y < 0.5 ? 1.0 : 0.0; }), "stream of 1 m/s"));
+    restraints = "restraints { mooring { type tether; body crate; refAttachmentPt (0.35 0.5 0.2); anchor (0 0.5 0.2); stiffness 1e4; damping 100; } }";
+    CHECK(has(doubt("", 1), "its restraints stop it with a jerk. Hold it until"));
+    CHECK_FALSE(has(doubt("", 1), "`velocity"));        // a moored body that moves with the stream is stopped as well
     fluid.gravity = {0, 0, 0};
     CHECK(doubt("", 1).empty());
 }
