@@ -5,6 +5,7 @@
 
 #include "OSspecific.H"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -29,7 +30,40 @@ std::string header(const RestraintDefinition& r)
         + formatted("# %-16s %18s %18s %18s %18s %18s %18s %6s\n", "Time", "force_x", "force_y", "force_z", "tension", "largest", "length", "broken");
 }
 
+/// Number of the record of what the end is fastened to; -1: a point of space.
+int recordOf(const RestraintEnd& end, const BodiesInput& input)
+{
+    if (end.body >= 0) return int(input.structures.size()) + end.body;
+    if (end.mover < 0) return -1;
+    const int wall = int(input.walls.size()) + end.mover;
+    const auto isMover = [&](const StructureDefinition& s) { return s.motion && s.wall == wall; };
+    return int(std::find_if(input.structures.begin(), input.structures.end(), isMover) - input.structures.begin());
+}
+
+Vec3 inSpace(const RestraintEnd& end, int record, const std::vector<BodyRecord>& records)
+{
+    if (record < 0) return end.place;
+    return records[record].pose.position + records[record].pose.orientation*end.place;
+}
+
 } // namespace
+
+RestraintOutput::RestraintOutput(const BodiesInput& input) : restraints_(input.restraints), extremes_(input.restraints.size())
+{
+    for (const RestraintDefinition& r : restraints_) records_.push_back({recordOf(r.end, input), recordOf(r.other, input)});
+}
+
+std::vector<LineRecord> RestraintOutput::lines(const std::vector<BodyRecord>& records, const std::vector<RestraintLoad>& loads) const
+{
+    std::vector<LineRecord> lines;
+    for (std::size_t i = 0; i < restraints_.size(); ++i)
+    {
+        const Vec3 end = inSpace(restraints_[i].end, records_[i][0], records), other = inSpace(restraints_[i].other, records_[i][1], records);
+        const bool isThere = !loads[i].isBroken && loads[i].length > 0;
+        lines.push_back({end, isThere ? other : end, loads[i].tension});
+    }
+    return lines;
+}
 
 void RestraintOutput::begin(const Foam::Time& runTime)
 {

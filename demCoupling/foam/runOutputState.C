@@ -303,7 +303,7 @@ void RunOutput::writeState(const CoupledStep& step, double timeStep)
     files_.write(std::move(state), names);
     if (!history_) return;
     history_->flush();
-    if (!members_.empty()) history_->writeSurface(runTime_.value(), step.records());
+    writeScene(step);
 }
 
 } // namespace flotsam

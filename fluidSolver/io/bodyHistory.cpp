@@ -103,6 +103,7 @@ struct BodyHistory::Implementation
     std::string file;
     std::vector<HistoryMember> members;
     SurfaceSeries surface;
+    LineSeries lines;
 
     std::size_t rowsInFile = 0;
     double lastTime = -std::numeric_limits<double>::infinity();
@@ -112,7 +113,7 @@ struct BodyHistory::Implementation
     std::chrono::steady_clock::time_point lastFlush = std::chrono::steady_clock::now();
     double flushSeconds = 0;                        ///< that the last flush took
 
-    Implementation(const std::string& file, const std::vector<HistoryMember>& members, double startTime);
+    Implementation(const std::string& file, const std::vector<HistoryMember>& members, double startTime, const std::vector<std::string>& lines);
     void create();
     bool continueUndamaged(double startTime);
     bool continueFrom(double startTime);
@@ -122,8 +123,8 @@ struct BodyHistory::Implementation
 };
 
 BodyHistory::Implementation::Implementation(
-    const std::string& fileName, const std::vector<HistoryMember>& memberList, double startTime)
-    : file(fileName), members(memberList), surface(fileName, memberList), records(memberList.size())
+    const std::string& fileName, const std::vector<HistoryMember>& memberList, double startTime, const std::vector<std::string>& lineNames)
+    : file(fileName), members(memberList), surface(fileName, memberList), lines(fileName, lineNames), records(memberList.size())
 {
     checkNames(file, members);
     if (::access(file.c_str(), F_OK) != 0 || !continueUndamaged(startTime)) create();
@@ -151,6 +152,7 @@ void BodyHistory::Implementation::create()
         out.setAttribute(groupOf(members[m]), "member", std::int64_t(m)); // number in /surface/member
     }
     surface.create(out);
+    lines.create(out);
     out.close();
 }
 
@@ -218,6 +220,7 @@ bool BodyHistory::Implementation::continueFrom(double startTime)
     for (const auto& table : tables) kept = std::min(kept, out.rows(table));
     for (const auto& table : tables) out.setRows(table, kept);
     surface.continueFrom(out, limit);
+    lines.continueFrom(out, limit);
     out.close();
     rowsInFile = kept;
     if (kept > 0) lastTime = oldTimes[kept - 1];
@@ -274,8 +277,8 @@ void BodyHistory::Implementation::flush()
     flushSeconds = std::chrono::duration<double>(lastFlush - start).count();
 }
 
-BodyHistory::BodyHistory(const std::string& file, const std::vector<HistoryMember>& members, double startTime)
-    : impl_(new Implementation(file, members, startTime))
+BodyHistory::BodyHistory(const std::string& file, const std::vector<HistoryMember>& members, double startTime, const std::vector<std::string>& lines)
+    : impl_(new Implementation(file, members, startTime, lines))
 {
 }
 
@@ -337,6 +340,17 @@ void BodyHistory::writeSurface(double time, const std::vector<BodyRecord>& recor
         out.close();
     }
     impl_->surface.writeXdmf();
+}
+
+void BodyHistory::writeLines(double time, const std::vector<LineRecord>& lines)
+{
+    if (impl_->lines.isEmpty()) return;
+    {
+        Hdf5File out(impl_->file, Hdf5File::Mode::ReadWrite);
+        impl_->lines.append(out, time, lines);
+        out.close();
+    }
+    impl_->lines.writeXdmf();
 }
 
 } // namespace flotsam

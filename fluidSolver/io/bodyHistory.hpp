@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Time series of bodies and structure members in HDF5 (bodies.h5), and the same surfaces for ParaView (bodies.xdmf).
+/// Time series of bodies and structure members in HDF5 (bodies.h5), and their surfaces and the lines between them for ParaView (bodies.xdmf, restraints.xdmf).
 #pragma once
 
 #include "geometry/solid.hpp"
+#include "io/lineSeries.hpp"
 
 #include <memory>
 #include <string>
@@ -43,7 +44,8 @@ class BodyHistory
 public:
     /// Creates `file`, or continues it when it holds records earlier than `startTime` (restart): later ones are cut off.
     /// Throws when a file to be continued has other members, or is damaged.
-    BodyHistory(const std::string& file, const std::vector<HistoryMember>& members, double startTime);
+    /// lines: names of restraints.
+    BodyHistory(const std::string& file, const std::vector<HistoryMember>& members, double startTime, const std::vector<std::string>& lines = {});
     ~BodyHistory();
 
     double lastTime() const; ///< of the last record; -infinity: there is none
@@ -59,6 +61,8 @@ public:
     /// Adds the surfaces at this time to /surface in the HDF5 file and rewrites the XDMF file next to it (bodies.xdmf):
     /// all surfaces as one moving triangulation, with member number, velocity and contact force. Call at write times.
     void writeSurface(double time, const std::vector<BodyRecord>& records);
+    /// The same of the lines, to /restraints and restraints.xdmf.
+    void writeLines(double time, const std::vector<LineRecord>& lines);
 
 private:
     struct Implementation;

@@ -2,10 +2,9 @@
 #include "io/surfaceSeries.hpp"
 
 #include "io/hdf5File.hpp"
+#include "io/xdmfParts.hpp"
 
-#include <cstdio>
-#include <fstream>
-#include <iomanip>
+#include <ostream>
 #include <stdexcept>
 
 namespace flotsam
@@ -19,16 +18,6 @@ const std::string group = "/surface";
 void put(std::vector<double>& list, const Vec3& v)
 {
     list.insert(list.end(), v.data(), v.data() + 3);
-}
-
-/// Rows `first`..`first+count-1` of a table with three columns, as XDMF's reader of ParaView 5 wants them.
-void writeSlab(std::ostream& out, const std::string& dataset, const char* type, std::size_t first, std::size_t count,
-    std::size_t total, int precision = 4)
-{
-    out << "<DataItem ItemType=\"HyperSlab\" Dimensions=\"" << count << " 3\" Type=\"HyperSlab\">"
-        << "<DataItem Dimensions=\"3 2\" Format=\"XML\">" << first << " 0 1 1 " << count << " 3</DataItem>"
-        << "<DataItem Dimensions=\"" << total << " 3\" NumberType=\"" << type << "\" Precision=\"" << precision << "\" Format=\"HDF\">"
-        << dataset << "</DataItem></DataItem>";
 }
 
 } // namespace
@@ -118,41 +107,28 @@ void SurfaceSeries::append(Hdf5File& out, double time, const std::vector<BodyRec
 void SurfaceSeries::writeXdmf() const
 {
     if (isEmpty()) return;
-    const auto slash = file_.rfind('/');
-    const auto dot = file_.rfind('.');
-    const bool hasEnding = dot != std::string::npos && (slash == std::string::npos || dot > slash);
-    const std::string name = (hasEnding ? file_.substr(0, dot) : file_) + ".xdmf";
-    const std::string data = (slash == std::string::npos ? file_ : file_.substr(slash + 1)) + ":" + group;
+    const std::string name = fileNameOf(file_), data = name + ":" + group;
     const std::size_t nPoints = points_.size(), nTriangles = triangleMember_.size(), nTimes = times_.size();
 
-    std::ofstream out(name + ".tmp");
-    out << std::setprecision(12)
-        << "<?xml version=\"1.0\"?>\n<Xdmf Version=\"2.0\"><Domain>\n"
-        << "<Grid Name=\"bodies\" GridType=\"Collection\" CollectionType=\"Temporal\">\n";
-    for (std::size_t t = 0; t < nTimes; ++t)
+    const auto rows = [&](const char* table, const char* type, std::size_t first, std::size_t count, std::size_t total, int precision = 4)
+    { return XdmfSlab{data + table, type, first, count, total, 3, precision}; };
+    writeXdmfFile(folderOf(file_) + name.substr(0, name.rfind('.')) + ".xdmf", "bodies", [&](std::ostream& out)
     {
-        out << "<Grid Name=\"surface\" GridType=\"Uniform\"><Time Value=\"" << times_[t] << "\"/>\n"
-            << "<Topology TopologyType=\"Triangle\" NumberOfElements=\"" << nTriangles << "\">";
-        // a slab here, too: ParaView 5 then does not try to find out (in vain, with an error) whether the grid has changed
-        writeSlab(out, data + "/triangles", "Int", 0, nTriangles, nTriangles);
-        out << "</Topology>\n<Geometry GeometryType=\"XYZ\">";
-        writeSlab(out, data + "/points", "Float", t * nPoints, nPoints, nTimes * nPoints, 8);
-        out << "</Geometry>\n<Attribute Name=\"member\" AttributeType=\"Scalar\" Center=\"Cell\"><DataItem Dimensions=\""
-            << nTriangles << "\" NumberType=\"Int\" Precision=\"4\" Format=\"HDF\">" << data << "/member</DataItem></Attribute>\n"
-            << "<Attribute Name=\"surfaceVelocity\" AttributeType=\"Vector\" Center=\"Node\">";
-        writeSlab(out, data + "/velocity", "Float", t * nPoints, nPoints, nTimes * nPoints);
-        out << "</Attribute>\n<Attribute Name=\"velocity\" AttributeType=\"Vector\" Center=\"Cell\">";
-        writeSlab(out, data + "/memberVelocity", "Float", t * nTriangles, nTriangles, nTimes * nTriangles);
-        out << "</Attribute>\n<Attribute Name=\"contactForce\" AttributeType=\"Vector\" Center=\"Cell\">";
-        writeSlab(out, data + "/contactForce", "Float", t * nTriangles, nTriangles, nTimes * nTriangles);
-        out << "</Attribute>\n</Grid>\n";
-    }
-    out << "</Grid>\n</Domain></Xdmf>\n";
-    out.close();
-    if (!out || std::rename((name + ".tmp").c_str(), name.c_str()) != 0)
-    {
-        throw std::runtime_error(name + ": cannot write the file");
-    }
+        for (std::size_t t = 0; t < nTimes; ++t)
+        {
+            out << "<Grid Name=\"surface\" GridType=\"Uniform\"><Time Value=\"" << times_[t] << "\"/>\n"
+                << "<Topology TopologyType=\"Triangle\" NumberOfElements=\"" << nTriangles << "\">"
+                // a slab here, too: ParaView 5 then does not try to find out (in vain, with an error) whether the grid has changed
+                << rows("/triangles", "Int", 0, nTriangles, nTriangles)
+                << "</Topology>\n<Geometry GeometryType=\"XYZ\">" << rows("/points", "Float", t * nPoints, nPoints, nTimes * nPoints, 8)
+                << "</Geometry>\n<Attribute Name=\"member\" AttributeType=\"Scalar\" Center=\"Cell\"><DataItem Dimensions=\""
+                << nTriangles << "\" NumberType=\"Int\" Precision=\"4\" Format=\"HDF\">" << data << "/member</DataItem></Attribute>\n"
+                << "<Attribute Name=\"surfaceVelocity\" AttributeType=\"Vector\" Center=\"Node\">" << rows("/velocity", "Float", t * nPoints, nPoints, nTimes * nPoints)
+                << "</Attribute>\n<Attribute Name=\"velocity\" AttributeType=\"Vector\" Center=\"Cell\">" << rows("/memberVelocity", "Float", t * nTriangles, nTriangles, nTimes * nTriangles)
+                << "</Attribute>\n<Attribute Name=\"contactForce\" AttributeType=\"Vector\" Center=\"Cell\">" << rows("/contactForce", "Float", t * nTriangles, nTriangles, nTimes * nTriangles)
+                << "</Attribute>\n</Grid>\n";
+        }
+    });
 }
 
 } // namespace flotsam

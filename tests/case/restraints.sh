@@ -43,6 +43,8 @@ diff <(sed -n '/^  restraints/,/^$/p' one/log.flotsamFoam) <(sed -n '/^  restrai
 grep -q 'restraint weak is broken: its force exceeded 0.05 N' one/log.flotsamFoam || fail "weak does not break"
 python "$here/momentum.py" parts "0 -9.81 0" bar next || exit
 
+python "$here/restraintLines.py" one parts || exit
+
 # refuses ENTRY WORDS: what is changed in a run that is to go on
 setEntry parts/system/controlDict endTime 0.1
 refuses() {

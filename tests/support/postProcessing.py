@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Test of tutorials/common/flotsam.py and driftwood.py. Usage: postProcessing.py PROGRAM, PROGRAM writes a known body history."""
+"""Test of tutorials/common/flotsam.py, driftwood.py and flotsamScene.py. Usage: postProcessing.py PROGRAM, PROGRAM writes a known body history."""
 
 import os
 import subprocess
@@ -12,6 +12,7 @@ import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tutorials", "common"))
 import driftwood  # noqa: E402
 import flotsam  # noqa: E402
+import flotsamScene  # noqa: E402
 
 LENGTH, WIDTH, HEIGHT = 2.0, 0.5, 1.0
 LEVEL = 0.4375  # in the middle of a cell of height 0.125
@@ -143,6 +144,24 @@ class BodyHistory(unittest.TestCase):
         np.testing.assert_allclose(h.run["dt"], 0.01)
         np.testing.assert_allclose(h.surface["time"], [0, 0.5, 1])
         np.testing.assert_allclose(h.surface["points"][8 + 1], [1.5, 0, 0])
+        self.assertEqual(h.restraints["names"], ["mooring"])
+        np.testing.assert_allclose(h.restraints["tension"], [0, 1.5, 3])
+        drawn = [flotsamScene.restraintLines(h, time) for time in (0, 0.4, 1)]
+        self.assertEqual([lines.GetNumberOfLines() for lines in drawn], [1, 1, 0])      # the broken one is left out
+        np.testing.assert_allclose(drawn[1].GetBounds(), [0, 0.5, 0, 2, 0, 0])
+
+    def test_tables_of_runs_that_went_on(self):
+        parts = {"0/left.dat": [1, 2, 3], "2/left.dat": [9], "2/left_1.dat": [3.5, 4, 5], "10/left.dat": [11]}  # later files of a time are newer
+        with tempfile.TemporaryDirectory() as folder:
+            for name, times in parts.items():
+                path = os.path.join(folder, "postProcessing", "restraints", name)
+                os.makedirs(os.path.dirname(path), exist_ok=True)
+                with open(path, "w", encoding="utf-8") as out:
+                    out.write("# Time\n" + "".join(f"{time} {name.split('/')[0]}\n" for time in times))
+            table = flotsam.stepTable(folder, "restraints", "left.dat")
+            with self.assertRaisesRegex(flotsam.CaseError, "right.dat: no such file; there are: left.dat"):
+                flotsam.stepTable(folder, "restraints", "right.dat")
+        np.testing.assert_array_equal(table, [[1, 0], [2, 0], [3.5, 2], [4, 2], [5, 2], [11, 10]])
 
     def test_largest_mean_over_a_second(self):
         time = np.linspace(0, 4, 401)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Writes a small body history with known values: a bar that moves along x at 1 m/s, a post at rest.
+/// Writes a small body history with known values: a bar that moves along x at 1 m/s, a post at rest, and a line between them that breaks at the end.
 /// Usage: writeHistoryExample FILE
 #include "io/bodyHistory.hpp"
 
@@ -18,7 +18,7 @@ int main(int argc, char** argv)
     tetrahedron.points = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
     tetrahedron.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
     const std::vector<HistoryMember> members{{"bar", false, 0.5, 1e-3, tetrahedron}, {"post", true, 0, 2e-3, tetrahedron}};
-    BodyHistory history(argv[1], members, 0);
+    BodyHistory history(argv[1], members, 0, {"mooring"});
     for (int i = 0; i <= 100; ++i)
     {
         const double time = 0.01 * i;
@@ -35,7 +35,9 @@ int main(int argc, char** argv)
             records[1].peakContactForce = Vec3(i == 21 ? 4 : 3, i == 21 ? 3 : 0, 0);
         }
         history.append(time, records, {{"dt", 0.01}});
-        if (i % 50 == 0) history.writeSurface(time, records);
+        if (i % 50 != 0) continue;
+        history.writeSurface(time, records);
+        history.writeLines(time, {{records[0].pose.position, i < 100 ? Vec3(0, 2, 0) : records[0].pose.position, 3*time}});
     }
     return 0;
 }

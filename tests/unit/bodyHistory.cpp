@@ -295,3 +295,69 @@ TEST_CASE("appending is cheap" * doctest::may_fail()) // wall time on a shared m
     MESSAGE("ms per append of 30 members: " << spent.count() / n);
     CHECK(spent.count() / n < 1);
 }
+
+namespace
+{
+
+/// A line that turns with time, another that gets lost at 2 s.
+std::vector<LineRecord> linesAt(double t)
+{
+    const Vec3 lost(5, 0, 0);
+    return {{Vec3(t, 0, 0), Vec3(t, 1, t), 10 + t}, {lost, t < 2 ? Vec3(6, 0, 0) : lost, t < 2 ? -1.0 : 0.0}};
+}
+
+const std::vector<std::string> lineNames{"mooring", "link"};
+
+} // namespace
+
+TEST_CASE("lines between bodies go on where a run does, and are there for ParaView")
+{
+    const TemporaryFolder folder("historyLines");
+    const std::string file = folder / "bodies.h5";
+    {
+        BodyHistory history(file, members(), 0, lineNames);
+        for (double t : {0.0, 1.0, 3.0})
+        {
+            history.append(t, recordsAt(t, 2), {});
+            history.writeLines(t, linesAt(t));
+        }
+    }
+    {
+        BodyHistory history(file, members(), 1, lineNames);
+        CHECK(read(file, "/restraints/time") == std::vector<double>{0, 1});
+        history.writeLines(1, linesAt(7)); // known already
+        history.writeLines(2, linesAt(2));
+    }
+    CHECK(read(file, "/restraints/time") == std::vector<double>{0, 1, 2});
+    CHECK(read(file, "/restraints/tension") == std::vector<double>{10, -1, 11, -1, 12, 0});
+    const auto points = read(file, "/restraints/points");
+    REQUIRE(points.size() == 3 * 2 * 2 * 3);
+    CHECK(Vec3(points.data() + 3 * (4 + 1)) == Vec3(1, 1, 1));
+    CHECK(Vec3(points.data() + 3 * (8 + 2)) == Vec3(points.data() + 3 * (8 + 3)));
+    CHECK(read(file, "/restraints/lines") == std::vector<double>{0, 1, 2, 3});
+    CHECK(Hdf5File(file, Hdf5File::Mode::Read).stringAttribute("/restraints", "names") == "mooring link");
+
+    const std::string xdmf = text(folder / "restraints.xdmf");
+    CHECK(count(xdmf, "<Time Value=") == 3);
+    CHECK(count(xdmf, "TopologyType=\"Polyline\" NodesPerElement=\"2\" NumberOfElements=\"2\"") == 3);
+    CHECK(count(xdmf, ">8 0 1 1 4 3<") == 1);   // points of the third time
+    CHECK_THROWS_WITH_AS(BodyHistory(file, members(), 1, {"link", "mooring"}), doctest::Contains("holds other restraints (mooring link)"), std::runtime_error);
+    CHECK_THROWS_WITH_AS(BodyHistory(file, members(), 1), doctest::Contains("holds other restraints"), std::runtime_error);
+}
+
+TEST_CASE("without restraints nothing of them is written, and a run may go on with some")
+{
+    const TemporaryFolder folder("historyNoLines");
+    const std::string file = folder / "bodies.h5";
+    {
+        BodyHistory history(file, members(), 0);
+        history.append(0, recordsAt(0, 2), {});
+        history.writeLines(0, {});
+    }
+    CHECK_FALSE(Hdf5File(file, Hdf5File::Mode::Read).exists("/restraints"));
+    CHECK(text(folder / "restraints.xdmf").empty());
+    BodyHistory history(file, members(), 1, lineNames);
+    history.writeLines(1, linesAt(1));
+    CHECK(read(file, "/restraints/time") == std::vector<double>{1});
+    CHECK(count(text(folder / "restraints.xdmf"), "<Time Value=") == 1);
+}

@@ -41,6 +41,9 @@ class History:
                     names.append(name)
                     self._members[kind + "/" + name] = Member(content[kind][name])
             self.surface = {name: content["surface"][name][...] for name in content.get("surface", {})}
+            self.restraints = {name: content["restraints"][name][...] for name in content.get("restraints", {})}
+            if self.restraints:
+                self.restraints["names"] = content["restraints"].attrs["names"].decode().split()
         self.time = self.run["time"]
 
     def __getitem__(self, name):
@@ -82,6 +85,30 @@ def historyFile(case):
 def history(path):
     """History of a bodies.h5, given itself, its folder or the case."""
     return History((historyFile(path) or os.path.join(path, "bodies.h5")) if os.path.isdir(path) else path)
+
+
+def stepTable(case, folder, name):
+    """Rows of a table with a line for each step (postProcessing/<folder>/<start time>/<name>: of restraints, of wallForces) from all runs that went on, each until the next begins."""
+    root = os.path.join(case, "postProcessing", folder)
+    starts = sorted(os.listdir(root) if os.path.isdir(root) else [], key=float)
+    parts = [np.loadtxt(_newest(os.path.join(root, start), name), ndmin=2) for start in starts]
+    if not parts:
+        raise CaseError(f"{root}: no {name}; has the solver been run?")
+    for k, start in enumerate(starts[1:]):
+        parts[k] = parts[k][parts[k][:, 0] < float(start) * (1 + 1e-9) + 1e-12]     # later ones were computed once more
+    return np.concatenate(parts)
+
+
+def _newest(folder, name):
+    """Of name, name_1, name_2, ..: a run that begins at the same time as an earlier one leaves that one's file as it is."""
+    stem, ending = os.path.splitext(name)
+    number, found = 0, os.path.join(folder, name)
+    while os.path.isfile(os.path.join(folder, f"{stem}_{number + 1}{ending}")):
+        number += 1
+        found = os.path.join(folder, f"{stem}_{number}{ending}")
+    if not os.path.isfile(found):
+        raise CaseError(f"{found}: no such file; there are: {', '.join(sorted(os.listdir(folder)))}")
+    return found
 
 
 def sumForce(h, names, quantity="fluidForce"):

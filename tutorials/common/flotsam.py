@@ -13,7 +13,7 @@ try:
     import vtkmodules.all as vtk
     from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
-    from bodyHistory import CaseError, History, Impact, Member, captured, history, historyFile, impacts, momentumLoad, sumForce  # noqa: F401
+    from bodyHistory import CaseError, History, Impact, Member, captured, history, historyFile, impacts, momentumLoad, stepTable, sumForce  # noqa: F401
 except ImportError as error:
     sys.exit(f"{sys.executable}: {error}.\nNeeded: python3-numpy python3-h5py python3-vtk9 python3-matplotlib of the distribution and its "
              "interpreter, usually /usr/bin/python3; . scripts/environment.sh finds it as $FLOTSAM_PYTHON.")

@@ -17,7 +17,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray,
 import flotsam
 
 COLOURS = {"water": (0.20, 0.47, 0.75), "body": (0.52, 0.33, 0.16), "structure": (0.55, 0.56, 0.58),
-           "floor": (0.86, 0.82, 0.74), "text": (0.10, 0.10, 0.10)}
+           "line": (0.75, 0.10, 0.10), "floor": (0.86, 0.82, 0.74), "text": (0.10, 0.10, 0.10)}
 DIRECTIONS = {"perspective": (-0.55, -1.0, 0.55), "side": (0, -1, 0), "top": (0, 0, 1), "front": (-1, 0, 0),
               "back": (1, 0, 0), "downstream": (0.75, -1.0, 0.55)}  # from the scene to the eye
 FLAT = ("side", "top", "front", "back")  # drawn without perspective: lengths can be compared
@@ -115,6 +115,25 @@ def memberSurfaces(history, time):
     return result
 
 
+def restraintLines(history, time):
+    """vtkPolyData: the restraints as lines at the record nearest to `time`; None where there are none. Broken ones are left out."""
+    stored = history.restraints
+    if not stored or not len(stored["time"]):
+        return None
+    k = int(np.argmin(np.abs(stored["time"] - time)))
+    ends = stored["points"].reshape(len(stored["time"]), -1, 2, 3)[k]
+    join = vtk.vtkAppendPolyData()
+    join.AddInputData(vtk.vtkPolyData())
+    for begin, end in ends[np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1) > 0]:
+        line = vtk.vtkLineSource()
+        line.SetPoint1(begin)
+        line.SetPoint2(end)
+        line.Update()
+        join.AddInputData(line.GetOutput())
+    join.Update()
+    return join.GetOutput()
+
+
 def _polyData(points, triangles):
     used, local = np.unique(triangles, return_inverse=True)
     data = vtk.vtkPolyData()
@@ -171,7 +190,7 @@ def _patches(case, time, names):
 
 def renderScene(case, time, file, camera="perspective", bounds=None, size=(1600, 900), zoom=1.0, up=2, history=None,
                 patches=None, floor=True, waterOpacity=0.45, title=None, colours=None, alpha=flotsam.ALPHA):
-    """Writes a PNG of the scene at the written time nearest to `time`: water, bodies (brown), structures (grey), floor.
+    """Writes a PNG of the scene at the written time nearest to `time`: water, bodies (brown), structures (grey), restraints (red lines), floor.
 
     camera   one of DIRECTIONS, or (dx, dy, dz) from the scene to the eye, or a dict with position, focus[, viewUp]
     bounds   (xmin, xmax, ymin, ymax, zmin, zmax) the camera frames; default: the whole mesh
@@ -198,6 +217,11 @@ def renderScene(case, time, file, camera="perspective", bounds=None, size=(1600,
     for name, isStructure, data in memberSurfaces(history, time) if history else []:
         colour = (colours or {}).get(name, COLOURS["structure" if isStructure else "body"])
         renderer.AddActor(_actor(data, colour, smooth=True))
+    lines = restraintLines(history, time) if history else None
+    if lines:
+        actor = _actor(lines, COLOURS["line"])
+        actor.GetProperty().SetLineWidth(max(2, size[1] // 150))
+        renderer.AddActor(actor)
     if waterOpacity > 0 and mesh.GetPointData().HasArray(alpha):
         water = waterBody(case, time, alpha)
         if water.GetNumberOfCells():

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/lineSeries.hpp"
+
+#include "io/hdf5File.hpp"
+#include "io/xdmfParts.hpp"
+
+#include <numeric>
+#include <ostream>
+#include <stdexcept>
+
+namespace flotsam
+{
+
+namespace
+{
+
+const std::string group = "/restraints";
+
+std::string joined(const std::vector<std::string>& names)
+{
+    return std::accumulate(names.begin(), names.end(), std::string(), [](const std::string& all, const std::string& name) { return all.empty() ? name : all + ' ' + name; });
+}
+
+} // namespace
+
+void LineSeries::create(Hdf5File& out) const
+{
+    if (isEmpty()) return;
+    const std::size_t n = names_.size();
+    std::vector<int> ends(2 * n);
+    std::iota(ends.begin(), ends.end(), 0);
+    out.createTable(group + "/lines", 2, n, Hdf5File::Storage::Int32);
+    out.appendRows(group + "/lines", ends.data(), n);
+    out.createTable(group + "/time", 1, 256);
+    out.createTable(group + "/points", 3, 2 * n);   // double precision, as those of the surfaces: maps' grids
+    out.createTable(group + "/tension", 1, n);
+    out.setAttribute(group, "names", joined(names_));
+    for (const auto& [table, unit] : {std::pair<const char*, const char*>{"/time", "s"}, {"/points", "m"}, {"/tension", "N"}}) out.setAttribute(group + table, "unit", std::string(unit));
+}
+
+void LineSeries::continueFrom(Hdf5File& out, double startTime)
+{
+    if (!out.exists(group)) return create(out);
+    if (isEmpty() || out.stringAttribute(group, "names") != joined(names_))
+        throw std::runtime_error(file_ + ": holds other restraints (" + out.stringAttribute(group, "names") + "); rename or remove it to start a new one");
+    times_ = out.readArray(group + "/time");
+    while (!times_.empty() && times_.back() > startTime) times_.pop_back();
+    out.setRows(group + "/time", times_.size());
+    out.setRows(group + "/points", 2 * names_.size() * times_.size());
+    out.setRows(group + "/tension", names_.size() * times_.size());
+}
+
+void LineSeries::append(Hdf5File& out, double time, const std::vector<LineRecord>& lines)
+{
+    if (isEmpty() || (!times_.empty() && time <= times_.back())) return;
+    if (lines.size() != names_.size()) throw std::logic_error(file_ + ": " + std::to_string(lines.size()) + " lines for " + std::to_string(names_.size()) + " names");
+    std::vector<double> points, tension;
+    for (const LineRecord& line : lines)
+    {
+        for (const Vec3* end : {&line.begin, &line.end}) points.insert(points.end(), end->data(), end->data() + 3);
+        tension.push_back(line.tension);
+    }
+    out.appendRows(group + "/points", points.data(), 2 * lines.size());
+    out.appendRows(group + "/tension", tension.data(), lines.size());
+    out.appendRows(group + "/time", &time, 1);
+    times_.push_back(time);
+}
+
+void LineSeries::writeXdmf() const
+{
+    if (isEmpty()) return;
+    const std::string data = fileNameOf(file_) + ":" + group;
+    const std::size_t n = names_.size(), nTimes = times_.size();
+    writeXdmfFile(folderOf(file_) + "restraints.xdmf", "restraints", [&](std::ostream& out)
+    {
+        for (std::size_t t = 0; t < nTimes; ++t)
+        {
+            out << "<Grid Name=\"lines\" GridType=\"Uniform\"><Time Value=\"" << times_[t] << "\"/>\n"
+                << "<Topology TopologyType=\"Polyline\" NodesPerElement=\"2\" NumberOfElements=\"" << n << "\">" << XdmfSlab{data + "/lines", "Int", 0, n, n, 2} << "</Topology>\n"
+                << "<Geometry GeometryType=\"XYZ\">" << XdmfSlab{data + "/points", "Float", 2 * n * t, 2 * n, 2 * n * nTimes, 3, 8} << "</Geometry>\n"
+                << "<Attribute Name=\"tension\" AttributeType=\"Scalar\" Center=\"Cell\">" << XdmfSlab{data + "/tension", "Float", n * t, n, n * nTimes, 1, 8} << "</Attribute>\n</Grid>\n";
+        }
+    });
+}
+
+} // namespace flotsam
