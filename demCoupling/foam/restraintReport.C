@@ -44,6 +44,15 @@ std::string besideBody(const RestraintDefinition& r, const BodiesInput& input)
     return "";
 }
 
+/// A point of space that is far away: in other units, or a slip of the pen.
+std::string farAnchor(const RestraintDefinition& r, const BodiesInput& input)
+{
+    if (r.other.body >= 0 || r.other.mover >= 0) return "";
+    const Vec3 &low = input.box[0], &high = input.box[1], &point = r.other.place;
+    const double away = (point - point.cwiseMax(low).cwiseMin(high)).norm(), diagonal = (high - low).norm();
+    return away > diagonal ? text("its anchor is ", away, " m away from the mesh, whose diagonal is ", diagonal, " m. Coordinates are in m") : "";
+}
+
 /// Within a step the water's load is constant: it feeds and damps no vibration that is faster.
 std::string undamped(const RestraintDefinition& r, const BodiesInput& input, double startTime, double deltaT)
 {
@@ -63,6 +72,8 @@ std::vector<std::string> doubtfulRestraints(const BodiesInput& input, double sta
     {
         const std::string beside = besideBody(r, input);
         if (!beside.empty()) doubts.push_back(text("restraint ", r.name, ": ", beside, ". Points are given in space, of the body where constant/bodies puts it"));
+        const std::string far = farAnchor(r, input);
+        if (!far.empty()) doubts.push_back(text("restraint ", r.name, ": ", far));
         const std::string rings = undamped(r, input, startTime, deltaT);
         if (!rings.empty()) doubts.push_back(text("restraint ", r.name, " has ", rings));
         const double force = std::abs(r.tension(initialLine(r, input.bodies, input.movers, startTime).norm(), 0));

@@ -98,13 +98,18 @@ TEST_CASE("one message for every mistake")
     CHECK(has(message(type + ends + stiff + "breakingForce 0; "), "'breakingForce' is 0"));
 }
 
-TEST_CASE("doubts: a point beside its body, a restraint that breaks at once, a stiff one without damping")
+TEST_CASE("doubts: a point beside its body, an anchor far away, a restraint that breaks at once, a stiff one without damping")
 {
     BodiesScene s;
     const std::string beside = "type tether; body boat; refAttachmentPt (0.5 0.8 0.2); anchor (0.5 0.9 0.2); ";
     auto doubts = doubtfulRestraints(s.read(logs + restraint(beside + stiff)), 0, 1e-3);
     REQUIRE(doubts.size() == 1);
     CHECK(has(doubts[0], "its point on body boat is 0.2 m outside of that"));
+    doubts = doubtfulRestraints(s.read(logs + restraint("type tether; body boat; refAttachmentPt (0.5 0.6 0.2); anchor (500 900 200); " + stiff)), 0, 1e-3); // in mm
+    REQUIRE(doubts.size() == 1);
+    CHECK(has(doubts[0], "restraint mooring: its anchor is "));
+    CHECK(has(doubts[0], " m away from the mesh"));
+    CHECK(doubtfulRestraints(s.read(logs + restraint("type tether; body boat; refAttachmentPt (0.5 0.6 0.2); anchor (0.5 2.5 0.2); " + stiff)), 0, 1e-3).empty()); // on a bank outside
     doubts = doubtfulRestraints(s.read(logs + restraint(type + ends + stiff + "length 0.2; breakingForce 500;")), 0, 1e-3);
     REQUIRE(doubts.size() == 1);
     CHECK(has(doubts[0], "restraint mooring breaks at once: 1000 N at the start"));
