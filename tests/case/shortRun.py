@@ -15,7 +15,7 @@ speed = np.linalg.norm(flotsam.fields(".", "last", ["U"])["U"], axis=1)
 report.within("largest speed", speed.max(), 1e-6, 5, "m/s")
 if "massError" in h.run:
     report.within("largest mass error", np.abs(h.run["massError"]).max(), 0, 1e-3)
-if name in ("damBreak", "floatingBar", "slitDam", "bridgePier", "debrisRack"):
+if name in ("damBreak", "floatingBar", "slitDam", "bridgePier", "debrisRack", "debrisBoom"):
     alpha = flotsam.fields(".", "last", [flotsam.ALPHA])[flotsam.ALPHA]
     report.within("smallest phase value", alpha.min(), -1e-9, 1)
     report.within("largest phase value", alpha.max(), 0, 1 + 1e-9)
@@ -61,4 +61,13 @@ elif name == "debrisRack":
     report.within("smallest speed along the channel", min(log.velocity[-1, 0] for log in came), 0.44, 0.46, "m/s", "0.45 m/s through the air")
     report.within("largest speed downward", max(-log.velocity[-1, 2] for log in came), 0.02, 9.81 * 0.012, "m/s", "free fall")
     report.within("speed of those to come", max(np.abs(h[log].velocity).max() for log in h.bodies if h[log].awaited[-1] > 0.5), 0, 0, "m/s")
+elif name == "debrisBoom":
+    report.within("bodies", len(h.bodies), 34, 34, "", "30 logs, 4 floats")
+    report.within("logs that came in", sum(h[log].awaited[-1] < 0.5 for log in h.bodies), 2, 34, "", "as debrisRack")
+    report.within("lines", len(h.restraints["names"]), 10, 10, "", "two rows")
+    tables = {line: flotsam.stepTable(".", "restraints", line + ".dat") for line in h.restraints["names"]}
+    for line, rows in tables.items():
+        report.within(f"mean tension of {line}", rows[rows[:, 0] > 0.02, 4].mean(), 0.05, 10, "N", "the stream pulls the chain taut")
+    ends = -sum(tables[line][-1, 1] for line in tables if line.startswith(("right", "left")))
+    report.compare("held by the end lines in the last step", ends, -sum(h[f"float.{k}"].contactForce[-1, 0] for k in range(4)), 1e-6, "N", "on the floats, links cancel")
 report.end()

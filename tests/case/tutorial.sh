@@ -21,6 +21,10 @@ case $1 in
         end=0.02
         sed -i -e 's/^firstRelease .*/firstRelease 0.01;/' -e 's/^releaseInterval .*/releaseInterval 0.002;/' system/parameters
         ;;
+    debrisBoom) # a few logs at once, and the boom, with skirts, soon let go
+        end=0.04
+        sed -i -e 's/^firstRelease .*/firstRelease 0.01;/' -e 's/^releaseInterval .*/releaseInterval 0.002;/' -e 's/^floatRelease .*/floatRelease 0.005;/' -e 's/^skirts .*/skirts yes;/' system/parameters
+        ;;
     *) fail "no tutorial $1" ;;
 esac
 setEntry system/controlDict endTime $end

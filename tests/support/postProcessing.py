@@ -151,7 +151,7 @@ class BodyHistory(unittest.TestCase):
         np.testing.assert_allclose(drawn[1].GetBounds(), [0, 0.5, 0, 2, 0, 0])
 
     def test_tables_of_runs_that_went_on(self):
-        parts = {"0/left.dat": [1, 2, 3], "2/left.dat": [9], "2/left_1.dat": [3.5, 4, 5], "10/left.dat": [11]}  # later files of a time are newer
+        parts = {"0/left.dat": [1, 2, 3], "2/left.dat": [9], "2/left_1.dat": [3.5, 4, 5], "10/left.dat": [11], "11/left.dat": []}  # later files of a time are newer; the last run was at its end
         with tempfile.TemporaryDirectory() as folder:
             for name, times in parts.items():
                 path = os.path.join(folder, "postProcessing", "restraints", name)

@@ -91,12 +91,19 @@ def stepTable(case, folder, name):
     """Rows of a table with a line for each step (postProcessing/<folder>/<start time>/<name>: of restraints, of wallForces) from all runs that went on, each until the next begins."""
     root = os.path.join(case, "postProcessing", folder)
     starts = sorted(os.listdir(root) if os.path.isdir(root) else [], key=float)
-    parts = [np.loadtxt(_newest(os.path.join(root, start), name), ndmin=2) for start in starts]
+    parts = [_rows(_newest(os.path.join(root, start), name)) for start in starts]
     if not parts:
         raise CaseError(f"{root}: no {name}; has the solver been run?")
     for k, start in enumerate(starts[1:]):
         parts[k] = parts[k][parts[k][:, 0] < float(start) * (1 + 1e-9) + 1e-12]     # later ones were computed once more
-    return np.concatenate(parts)
+    return np.concatenate([part for part in parts if len(part)] or parts[:1])
+
+
+def _rows(file):
+    """Of a table whose heading has `#`; one column of none where a run was at its end already."""
+    with open(file, encoding="utf-8") as table:
+        rows = [line.split() for line in table if line[0] != "#"]
+    return np.array(rows, dtype=float) if rows else np.zeros((0, 1))
 
 
 def _newest(folder, name):
