@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Test of tutorials/common/flotsam.py, driftwood.py and flotsamScene.py. Usage: postProcessing.py PROGRAM, PROGRAM writes a known body history."""
+"""Test of tutorials/common/flotsam.py and driftwood.py. Usage: postProcessing.py PROGRAM, PROGRAM writes a known body history."""
 
 import os
 import subprocess
@@ -12,7 +12,6 @@ import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tutorials", "common"))
 import driftwood  # noqa: E402
 import flotsam  # noqa: E402
-import flotsamScene  # noqa: E402
 
 LENGTH, WIDTH, HEIGHT = 2.0, 0.5, 1.0
 LEVEL = 0.4375  # in the middle of a cell of height 0.125
@@ -146,7 +145,7 @@ class BodyHistory(unittest.TestCase):
         np.testing.assert_allclose(h.surface["points"][8 + 1], [1.5, 0, 0])
         self.assertEqual(h.restraints["names"], ["mooring"])
         np.testing.assert_allclose(h.restraints["tension"], [0, 1.5, 3])
-        drawn = [flotsamScene.restraintLines(h, time) for time in (0, 0.4, 1)]
+        drawn = [flotsam.restraintLines(h, time) for time in (0, 0.4, 1)]
         self.assertEqual([lines.GetNumberOfLines() for lines in drawn], [1, 1, 0])      # the broken one is left out
         np.testing.assert_allclose(drawn[1].GetBounds(), [0, 0.5, 0, 2, 0, 0])
 

@@ -278,6 +278,25 @@ def waterSurface(case, time, alpha=ALPHA, level=0.5):
     return contour.GetOutput()
 
 
+def restraintLines(history, time):
+    """vtkPolyData: the restraints as lines at the record nearest to `time`; None where there are none. Broken ones are left out."""
+    stored = history.restraints
+    if not stored or not len(stored["time"]):
+        return None
+    k = int(np.argmin(np.abs(stored["time"] - time)))
+    ends = stored["points"].reshape(len(stored["time"]), -1, 2, 3)[k]
+    join = vtk.vtkAppendPolyData()
+    join.AddInputData(vtk.vtkPolyData())
+    for begin, end in ends[np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1) > 0]:
+        line = vtk.vtkLineSource()
+        line.SetPoint1(begin)
+        line.SetPoint2(end)
+        line.Update()
+        join.AddInputData(line.GetOutput())
+    join.Update()
+    return join.GetOutput()
+
+
 # --- report -----------------------------------------------------------------------------------------------------------
 
 def writeSummary(file, title, rows, text=""):

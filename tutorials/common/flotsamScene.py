@@ -115,25 +115,6 @@ def memberSurfaces(history, time):
     return result
 
 
-def restraintLines(history, time):
-    """vtkPolyData: the restraints as lines at the record nearest to `time`; None where there are none. Broken ones are left out."""
-    stored = history.restraints
-    if not stored or not len(stored["time"]):
-        return None
-    k = int(np.argmin(np.abs(stored["time"] - time)))
-    ends = stored["points"].reshape(len(stored["time"]), -1, 2, 3)[k]
-    join = vtk.vtkAppendPolyData()
-    join.AddInputData(vtk.vtkPolyData())
-    for begin, end in ends[np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1) > 0]:
-        line = vtk.vtkLineSource()
-        line.SetPoint1(begin)
-        line.SetPoint2(end)
-        line.Update()
-        join.AddInputData(line.GetOutput())
-    join.Update()
-    return join.GetOutput()
-
-
 def _polyData(points, triangles):
     used, local = np.unique(triangles, return_inverse=True)
     data = vtk.vtkPolyData()
@@ -217,7 +198,7 @@ def renderScene(case, time, file, camera="perspective", bounds=None, size=(1600,
     for name, isStructure, data in memberSurfaces(history, time) if history else []:
         colour = (colours or {}).get(name, COLOURS["structure" if isStructure else "body"])
         renderer.AddActor(_actor(data, colour, smooth=True))
-    lines = restraintLines(history, time) if history else None
+    lines = flotsam.restraintLines(history, time) if history else None
     if lines:
         actor = _actor(lines, COLOURS["line"])
         actor.GetProperty().SetLineWidth(max(2, size[1] // 150))
