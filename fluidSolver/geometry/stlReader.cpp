@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -56,16 +57,23 @@ Corners readBinary(const std::string& data)
     return corners;
 }
 
+/// Some programs write them in capitals.
+bool isKeyword(std::string word, const char* keyword)
+{
+    for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return word == keyword;
+}
+
 Corners readAscii(const std::string& file, const std::string& data)
 {
     std::istringstream in(data);
     std::string word;
-    if (!(in >> word) || word != "solid")
+    if (!(in >> word) || !isKeyword(word, "solid"))
         fail(file, "neither binary (its length does not fit the number of triangles) nor ASCII (it does not start with 'solid')");
     Corners corners;
     while (in >> word)
     {
-        if (word != "vertex") continue;
+        if (!isKeyword(word, "vertex")) continue;
         double x[3];
         if (!(in >> x[0] >> x[1] >> x[2])) fail(file, "vertex number " + std::to_string(corners.size() + 1) + " is not three numbers");
         corners.emplace_back(x[0], x[1], x[2]);

@@ -102,6 +102,21 @@ TEST_CASE("an STL box is the box: distance, bounds, moments; ASCII, either orien
     }
 }
 
+TEST_CASE("ASCII STL in capitals")
+{
+    const TemporaryFile file;
+    const auto box = makeBox({0.1, -0.2, 0.3}, {1, 0.6, 0.4});
+    writeStl(file.name, box->surface(1));
+    std::string data;
+    {
+        std::ifstream in(file.name);
+        data.assign(std::istreambuf_iterator<char>(in), {});
+    }
+    for (char& c : data) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    std::ofstream(file.name) << data;
+    CHECK(makeStl(file.name)->moments().volume == near(0.24, 1e-14));
+}
+
 TEST_CASE("binary STL with scale: a fine capsule has the capsule's distance and moments")
 {
     const auto capsule = makeCapsule({0, 0, -0.4}, {0.1, 0.2, 0.4}, 0.3);
