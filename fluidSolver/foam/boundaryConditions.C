@@ -25,10 +25,21 @@ using Foam::vector;
 template<class Type>
 using TimeFunction = std::shared_ptr<const Foam::Function1<Type>>;
 
+/// "10 l/s": OpenFOAM leaves what follows the number.
+void checkNoUnit(const Foam::dictionary& dict, const char* keyword)
+{
+    if (dict.isDict(keyword)) return;
+    const Foam::ITstream& value = dict.lookup(keyword);
+    const bool hasWord = value.size() > 0 && value[0].isWord() && (value[0].wordToken() == "constant" || value[0].wordToken() == "uniform"); // a table may begin with its length
+    const Foam::label number = hasWord ? 1 : 0;
+    if (value.size() > number + 1 && value[number].isNumber()) failValue(dict, keyword, "a number, or a Function1 (table, csv, sine, ...)");
+}
+
 template<class Type>
 TimeFunction<Type> timeFunction(const Foam::dictionary& dict, const char* keyword)
 {
     if (!dict.found(keyword)) failIn(dict, text("Entry '", keyword, "' is missing: give a constant, or a Function1 (table, csv, sine, ...)."));
+    checkNoUnit(dict, keyword);
     const bool didThrow = Foam::FatalError.throwExceptions();
     TimeFunction<Type> function;
     std::string mistake;

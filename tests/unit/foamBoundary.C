@@ -141,6 +141,8 @@ TEST_CASE("what is not available is refused, with what could be used instead")
     CHECK(has(refused("0/p_rgh", "type fixedValue", "type fixedMean"), "fixedMean"));
     CHECK(has(refused("0/alpha.water", "type inletOutlet", "type inletOutletX"), "Nearest: inletOutlet"));
     CHECK(has(refused("0/U", inletU, "type flowRateInletVelocity; massFlowRate 5;"), "volumetricFlowRate"));
+    for (const std::string litres : {"10 l/s", "constant 10 l/s", "uniform 10 litres"})
+        CHECK(has(refused("0/U", inletU, "type flowRateInletVelocity; volumetricFlowRate " + litres + ";"), "Values have no unit behind them"));
     CHECK(has(refused("0/U", "type pressureInletOutletVelocity;", "type pressureInletOutletVelocity; tangentialVelocity uniform (1 0 0);"), "tangentialVelocity"));
     CHECK(has(refused("0/U", "type zeroGradient", "type inletOutlet; inletValue uniform (1 0 0); value uniform (1 0 0)"), "inletValue"));
     CHECK(has(refused("0/alpha.water", "inletValue uniform 0", "inletValue uniform 1.5"), "from 0 to 1"));
