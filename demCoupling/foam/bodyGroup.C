@@ -37,6 +37,19 @@ void readGroupSpheres(const Foam::dictionary& dict, BodyGroup& group)
     if (dict.found("spheres")) readSpheres(subGroup(dict, "spheres"), thinnest, group.sphereRadius, group.sphereSpacing);
 }
 
+/// Before they are made: a radius in other units than m would fill the memory.
+void checkSphereCount(const BodyGroup& group, double spacing)
+{
+    constexpr double most = 1e6;
+    const BodyDefinition& body = group.prototype;
+    const auto [lower, upper] = body.shape->bounds();
+    const Vec3 s = upper - lower;
+    const double area = 2*(s[0]*s[1] + s[1]*s[2] + s[2]*s[0]), count = area/(spacing*spacing);
+    if (body.isPlanar || count <= most) return;
+    failIn(*group.dict, text("Body ", body.name, " would have some ", count, " contact spheres of radius ", group.sphereRadius, " m, ", spacing, " m apart; allowed: ", most,
+        ".\n    Give larger ones, spheres { radius; spacing; } [m]; its smallest extent is ", body.thinnest, " m."));
+}
+
 } // namespace
 
 void checkPlanarMotion(const Foam::dictionary& dict, const std::string& name, const Motion& motion, const SceneFrame& frame)
@@ -105,6 +118,7 @@ void makeSpheres(std::vector<BodyGroup>& groups)
     {
         const double spacing = g.sphereSpacing > 0 ? g.sphereSpacing : closedSpacing(g.sphereRadius, smallest);
         const double ofRows = g.sphereSpacing > 0 ? g.sphereSpacing : 0.5*g.sphereRadius;
+        checkSphereCount(g, spacing);
         BodyDefinition& body = g.prototype;
         const Vec3 across = body.pose.orientation.conjugate()*Vec3::Unit(body.planeAxis);
         body.spheres = body.isPlanar ? sectionSpheres(*body.shape, Vec3::Zero(), across, g.sphereRadius, spacing, ofRows)

@@ -138,3 +138,11 @@ TEST_CASE("spheres of a union are as fine as its thinnest part demands")
     CHECK(finest("type union; parts { a { type cylinder; end1 (0 0 0); end2 (0.1 0.1 0.1); radius 0.02; } b { " + wad + " } }") == near(0.01, 1e-14));
     CHECK(has(s.message(bodies("shape { type union; parts { a { " + trunk + " } b { " + wad + " } } } density 600; spheres { radius 0.03; }")), "smallest extent is 0.04 m"));
 }
+
+TEST_CASE("contact spheres that would fill the memory are refused before they are made")
+{
+    BodiesScene s;
+    const std::string cube = "shape { type box; size (0.1 0.1 0.1); } density 600; position (1 0.5 0.2); ";
+    CHECK(has(s.message(bodies(cube + "spheres { radius 0.00001; spacing 0.00001; }")), "Body bar would have some 6e+08 contact spheres of radius 1e-05 m, 1e-05 m apart; allowed: 1e+06"));
+    CHECK(s.message(bodies(cube + "spheres { radius 0.002; spacing 0.001; }")).empty());
+}
