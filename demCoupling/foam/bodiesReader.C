@@ -244,6 +244,13 @@ void warnMisnamed(const Foam::Time& time)
     }
 }
 
+/// OpenFOAM leaves a file whose header it cannot read out, with a warning, where the file may be missing: the run would go on without bodies.
+void checkHeader(const Foam::IOdictionary& dict)
+{
+    if (!Foam::Pstream::master() || dict.headerClassName() != Foam::IOobject::typeName || !Foam::isFile(dict.time().globalPath()/dict.time().constant()/"bodies")) return;
+    failIn(dict, "constant/bodies does not begin with a header: FoamFile { version 2.0; format ascii; class dictionary; object bodies; }");
+}
+
 /// Histories and states know them by their names. Groups differ in theirs, but `bar.0` may be a group of its own beside the group `bar`.
 template<class Members, class Name>
 void checkMembersDiffer(const Foam::dictionary& dict, const Members& members, const char* what, Name name)
@@ -360,6 +367,7 @@ BodiesInput readBodies(const Foam::polyMesh& mesh, const SimplexMesh& simplexMes
     warnMisnamed(mesh.time());
     const Foam::IOobject io("bodies", mesh.time().constant(), mesh.time(), Foam::IOobject::READ_IF_PRESENT, Foam::IOobject::NO_WRITE, false);
     const Foam::IOdictionary dict(io);
+    checkHeader(dict);
     checkNamesDiffer(dict);
     return readBodies(dict, mesh, simplexMesh, halo, gravity);
 }

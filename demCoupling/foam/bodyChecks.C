@@ -125,6 +125,12 @@ std::vector<std::string> doubtfulBodies(const BodiesInput& input, const FluidPro
             std::round(100*depth(*body)/body->thinnest), " % of its thickness, into what it lies on. Give constant/bodies more `stiffness`, ",
             body->mass*gravity/(0.005*body->thinnest), " N/m for half a per cent"));
 
+    constexpr double smoothest = 1.5;   // degrees; steel slides on ice with about 1
+    const auto isCoefficient = [](const ContactLaw& law) { return law.frictionAngleDeg > 0 && law.frictionAngleDeg < smoothest; };
+    if (const auto law = std::find_if(input.laws.begin(), input.laws.end(), isCoefficient); law != input.laws.end())
+        doubts.push_back(text("frictionAngle ", law->frictionAngleDeg, " of constant/bodies is in degrees, a friction coefficient of ", std::tan(law->frictionAngleDeg*M_PI/180),
+            ": for a coefficient of ", law->frictionAngleDeg, " give ", std::atan(law->frictionAngleDeg)*180/M_PI));
+
     const auto staysHeld = [&](const BodyDefinition& b) { return b.releaseTime > 0 && b.releaseTime >= endTime; };
     if (const auto [body, who] = firstOf(input.bodies, staysHeld); body)
         doubts.push_back(text("body ", who, body->entersAtRelease ? " does not enter" : " is held all the time", ": its release, at ", body->releaseTime, " s, is not before endTime, ", endTime,

@@ -36,6 +36,18 @@ ContactLaw readLaw(const Foam::dictionary& dict, ContactLaw base)
     return base;
 }
 
+/// A pair has two names, one of which would win.
+void checkNamedOnce(const Foam::dictionary& contact, const std::vector<std::string>& materials)
+{
+    for (std::size_t i = 0; i < materials.size(); ++i)
+        for (std::size_t j = i + 1; j < materials.size(); ++j)
+        {
+            const std::string one = materials[i] + "-" + materials[j], other = materials[j] + "-" + materials[i];
+            if (contact.found(one, Foam::keyType::LITERAL) && contact.found(other, Foam::keyType::LITERAL))
+                failIn(contact, text("'", one, "' and '", other, "' are the same pair: give one of them."));
+        }
+}
+
 /// All ways to name a pair, with its two materials.
 std::vector<std::pair<std::string, std::pair<int, int>>> pairNames(const std::vector<std::string>& names)
 {
@@ -61,6 +73,7 @@ MaterialTable readMaterials(const Foam::dictionary& bodies)
     std::vector<std::string> known{"default"};
     for (const auto& pair : pairs) known.push_back(pair.first);
     checkKeywords(contact, known);
+    checkNamedOnce(contact, table.names);
 
     ContactLaw byDefault;
     if (contact.found("default")) byDefault = readLaw(subGroup(contact, "default"), byDefault);

@@ -35,6 +35,7 @@ TEST_CASE("one message for every mistake")
     CHECK(has(s.message(bodies(bar + at + "material wod; ") + "materials (wood steel); wallMaterial wood;"), "Did you mean: wood"));
     CHECK(has(s.message(bodies(bar + at) + "materials (wood steel); wallMaterial wood;"), "'material' is missing"));
     CHECK(has(s.message(bodies(bar + at) + "contact { wood-steel {} }"), "Unknown keyword 'wood-steel'"));
+    CHECK(has(s.message(bodies(bar + at + "material wood;") + "materials (wood steel); wallMaterial wood; contact { steel-wood {} wood-steel {} }"), "'wood-steel' and 'steel-wood' are the same pair"));
     CHECK(has(s.message(bodies(bar + at) + "wallPatches (flor);"), "Did you mean: floor"));
     CHECK(has(s.message(bodies(bar + at + "spheres { radius 0.5; }")), "smallest extent is 0.02"));
     CHECK(has(s.message(bodies(bar + at + "random {} poses ();")), "only one of"));
@@ -338,7 +339,7 @@ TEST_CASE("a body that is let go at rest in a stream that is there from the star
     CHECK(doubt("", 1).empty());
 }
 
-TEST_CASE("bodies lighter than the gas, those that their weight presses deep into what they lie on, and those never released, are told")
+TEST_CASE("bodies lighter than the gas, those that their weight presses deep into what they lie on, those never released, and friction coefficients for angles, are told")
 {
     BodiesScene s;
     FluidProperties fluid;
@@ -370,6 +371,11 @@ TEST_CASE("bodies lighter than the gas, those that their weight presses deep int
     CHECK(has(absent[0], "body cube.0 (and 1 more) does not enter"));
     CHECK(doubts("stiffness 1000; perBody off;", "mass 1;").empty());
     CHECK(doubts("stiffness 1e8;", "density 19300;").empty());
+    CHECK(doubts("stiffness 1e4; frictionAngle 0;", "density 600;").empty());
+    CHECK(doubts("stiffness 1e4; frictionAngle 2;", "density 600;").empty());
+    const auto coefficient = doubts("stiffness 1e4; frictionAngle 0.577;", "density 600;");
+    REQUIRE(coefficient.size() == 1);
+    CHECK(has(coefficient[0], "frictionAngle 0.577 of constant/bodies is in degrees, a friction coefficient of 0.0100709: for a coefficient of 0.577 give 29.98"));
     const auto heavy = doubts("stiffness 1e8;", "mass 590;");
     REQUIRE(heavy.size() == 1);
     CHECK(has(heavy[0], "body cube.0 (and 1 more) has density 590000 kg/m^3, more than any matter: mass 590 kg in 0.001 m^3"));
