@@ -15,10 +15,12 @@
 #include "foam/caseCheck.H"
 #include "foam/cellCost.H"
 #include "foam/dictionaryChecks.H"
+#include "foam/editedControls.H"
 #include "foam/fieldIO.H"
 #include "foam/laterTimes.H"
 #include "foam/otherInput.H"
 #include "foam/patchReport.H"
+#include "foam/runEnd.H"
 #include "foam/startReport.H"
 #include "foam/wallForces.H"
 #include "foam/writeTimes.H"
@@ -130,15 +132,6 @@ void checkProcesses()
             " (decomposePar) and run  mpirun -np " + std::to_string(size) + " flotsamFoam -parallel");
 }
 
-/// Of controlDict, which may be edited while the run goes on (runTimeModifiable), as OpenFOAM's solvers take it.
-void updateTimeControls(const Foam::Time& runTime, TimeControls& time)
-{
-    const TimeControls now = readTimeControls(runTime.controlDict());
-    if (now == time) return;
-    time = now;
-    Foam::Info<< "system/controlDict was changed: time step " << describe(time).c_str() << Foam::endl;
-}
-
 /// What a run that begins anew begins with.
 void reportAnew(const CaseControls& controls, const SimplexMesh& mesh, const Halo& halo, const BodiesInput& bodies, const FlowState& state)
 {
@@ -221,18 +214,9 @@ bool write(Foam::Time& runTime, const Halo& halo, CoupledStep& step, FoamFields&
     return isStopping;
 }
 
-/// As Time::run() decides it, which would start function objects. Returns whether it is so.
-bool reportEnded(const Foam::Time& runTime)
-{
-    const double endTime = runTime.endTime().value();
-    if (runTime.value() < endTime - 0.5*runTime.deltaTValue()) return false;
-    Foam::Info<< "Nothing to do: the run is at " << runTime.timeName() << " s, endTime of system/controlDict is " << endTime << " s" << Foam::endl;
-    return true;
-}
-
 enum class Task { Run, Check, WeighCells };
 
-/// False: a signal has ended the run before its time.
+/// False: a signal, or stopAt, has ended the run before its time.
 bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
 {
     PetscSession petsc(MPI_COMM_WORLD);
@@ -265,6 +249,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         FlowState state;
         fields.readStart(state);
         if (!isContinued) report(state);
+        if (!isContinued) fitFirstStep(runTime, controls.time);
         reportEnded(runTime);
         checkInflow(adapter, halo, boundary, state, nullptr, runTime.value());
         reportPatches(controls, adapter, halo, boundary, state, nullptr, runTime.value(), runTime.endTime().value());
@@ -289,13 +274,16 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     mesh.primitiveMesh::clearAddressing();  // cells, edges and the like that only the start needed; the geometry must stay: fields of the fvMesh are slices of it
     installStopSignals();
 
-    TimeControls time = controls.time;
+    EditedControls edited(controls.time);
+    if (output.timeStep() <= 0) fitFirstStep(runTime, controls.time);
     if (!reportEnded(runTime)) warnUnwritten(runTime, writeTimes);
     bool isComplete = true;
     double dt = output.timeStep() > 0 ? output.timeStep() : firstStep(runTime, controls, adapter.mesh, halo)/timeStepGrowth;
     while (runTime.run())
     {
-        updateTimeControls(runTime, time);
+        const std::string change = edited.update(runTime.controlDict());
+        if (!change.empty()) Foam::Info<< change.c_str() << Foam::endl;
+        const TimeControls& time = edited.now();
         const double ahead = timeStepGrowth*dt;
         const CourantNumbers rates = courantRates(step, ahead);
         checkInflow(adapter, halo, boundary, step.fluid().state(), step.cover(), runTime.value());
@@ -322,6 +310,8 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     if (!isComplete)
         Foam::Info<< "Stopped by a signal at " << runTime.timeName() << " s, before endTime. The state is written; the run goes on from it with startFrom latestTime\n"
             << Foam::endl;
+    else
+        isComplete = !reportStopped(runTime);
     return isComplete;
 }
 

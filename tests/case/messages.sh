@@ -117,6 +117,9 @@ sed -i 's/density /beforeRelease absent; density /' alone/constant/bodies
 grep -q 'absent before its release .* no gas' alone.log || fail "a body that comes in through one fluid: no word"
 rm -rf misnamed && cp -r good misnamed && mv misnamed/constant/bodies misnamed/constant/bodiesDict
 (cd misnamed && quietly flotsamFoam -dry-run && grep -q 'constant/bodiesDict is not read' log.flotsamFoam) || fail "a misnamed constant/bodies is not mentioned"
+rm -rf headless && cp -r good headless && sed -i '/^FoamFile/,/^}/d' headless/constant/bodies
+(cd headless && flotsamFoam -dry-run) > headless.log 2>&1 && fail "constant/bodies without a header is left out"
+grep -q 'constant/bodies does not begin with a header: FoamFile {' headless.log || fail "constant/bodies without a header: no word"
 
 rm -rf beside && cp -r good beside
 echo 'structures { pier { shape { type cylinder; end1 (5 0 0); end2 (5 0 0.05); radius 0.01; } } }' >> beside/constant/bodies
@@ -148,6 +151,12 @@ sed -i '/^    walls/,/}/s/type .*;/type zeroGradient;/' letThrough/0/U
 rm -rf over && cp -r good over
 setEntry over/system/controlDict endTime 0
 (cd over && quietly flotsamFoam -dry-run && grep -q 'Nothing to do: the run is at 0 s, endTime of system/controlDict is 0 s' log.flotsamFoam) || fail "the dry run of nothing does not say so"
+setEntry over/system/controlDict endTime 0.002
+setEntry over/system/controlDict deltaT 0.01
+setEntry over/system/controlDict adjustTimeStep no
+(cd over && quietly flotsamFoam -dry-run && grep -q 'Nothing to do: .* is 0.002 s, not half a step of 0.01 s later' log.flotsamFoam) || fail "the dry run of less than half a step does not say so"
+setEntry over/system/controlDict adjustTimeStep yes
+(cd over && quietly flotsamFoam && ! grep -q 'Nothing to do' log.flotsamFoam && grep -qE '^ +[0-9]+ +0\.002 ' log.flotsamFoam) || fail "a first step longer than the run: $(tail -n 5 over/log.flotsamFoam)"
 rm -rf dry && cp -r good dry
 (cd dry && cp 0.orig/alpha.water 0/alpha.water && quietly flotsamFoam -dry-run && grep -q 'alpha.water of time 0 has no liquid' log.flotsamFoam) || fail "a tank without liquid is not mentioned"
 rm -rf thin && cp -r good thin

@@ -47,6 +47,17 @@ for signal in TERM INT; do
     cd ..
 done
 
+# stopAt, left in system/controlDict from the last stop
+rm -rf stopAt && cp -r bar stopAt
+cd stopAt || exit
+setEntry system/controlDict stopAt writeNow
+quietly flotsamFoam
+grep -q '^Stopped by stopAt writeNow of system/controlDict at 0.001 s, before endTime, 100 s. The state is written' log.flotsamFoam && ! grep -q '^End' log.flotsamFoam \
+    || fail "the log does not say that stopAt has ended the run: $(tail -n 20 log.flotsamFoam)"
+setEntry system/controlDict stopAt endTime
+goesOn 0.001 flotsamFoam
+cd ..
+
 cd parallel || exit
 quietly decomposePar
 signalled TERM mpirun -np 2 flotsamFoam -parallel && fail "mpirun: exit code 0 after SIGTERM"

@@ -2,6 +2,7 @@
 /// Controls: defaults, OpenFOAM's own forms of entries, and one message for every mistake.
 #include "foam/controlsReader.H"
 #include "foam/dictionaryChecks.H"
+#include "foam/editedControls.H"
 #include "support/foamCase.H"
 #include "support/near.hpp"
 
@@ -180,4 +181,21 @@ TEST_CASE("a whole case")
     CHECK(messageOf([] { checkUnused("fvOptions", parse("porous { active no; }")); }).empty());
     scene.edit({"constant/turbulenceProperties", "laminar", "LES"});
     CHECK(has(messageOf([&] { readCaseControls(scene.time()); }), "LES is not modelled"));
+}
+
+TEST_CASE("a mistake in controlDict while the run goes on is told once and changes nothing")
+{
+    EditedControls edited(readTimeControls(parse("deltaT 0.01; maxCo 0.5;")));
+    CHECK(edited.update(parse("deltaT 0.01; maxCo 0.5;")).empty());
+    CHECK(has(edited.update(parse("deltaT 0.01; maxCo 0.7; adjustTimeStep yes;")), "system/controlDict was changed: time step adaptive"));
+    CHECK(edited.now().maxCo == 0.7);
+    const std::string told = edited.update(parse("deltaT 0.01; maxCo half; adjustTimeStep no;"));
+    CHECK(has(told, "Warning: system/controlDict was changed, to what cannot be used: Entry 'maxCo' is 'half', but must be a number larger than 0."));
+    CHECK(has(told, "The time step stays adaptive"));
+    CHECK(edited.now().maxCo == 0.7);
+    CHECK(edited.now().adjustTimeStep);
+    CHECK(edited.update(parse("deltaT 0.01; maxCo half; adjustTimeStep no;")).empty());
+    CHECK(has(edited.update(parse("deltaT 0.01; maxCo -1;")), "'maxCo' is -1"));
+    CHECK(edited.update(parse("deltaT 0.01; maxCo 0.7; adjustTimeStep yes;")).empty());     // what it was
+    CHECK(has(edited.update(parse("deltaT 0.01; maxCo half;")), "'maxCo' is 'half'"));
 }

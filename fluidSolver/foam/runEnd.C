@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "foam/runEnd.H"
+
+namespace flotsam
+{
+
+void fitFirstStep(Foam::Time& runTime, const TimeControls& time)
+{
+    const double left = runTime.endTime().value() - runTime.value();
+    if (time.adjustTimeStep && left > 0 && runTime.deltaTValue() > left) runTime.setDeltaT(left, false);
+}
+
+bool reportEnded(const Foam::Time& runTime)
+{
+    const double endTime = runTime.endTime().value(), left = endTime - runTime.value();
+    if (left > 0.5*runTime.deltaTValue()) return false;
+    Foam::Info<< "Nothing to do: the run is at " << runTime.timeName() << " s, endTime of system/controlDict is " << endTime << " s";
+    if (left > 1e-6*runTime.deltaTValue()) Foam::Info<< ", not half a step of " << runTime.deltaTValue() << " s later";
+    Foam::Info<< Foam::endl;
+    return true;
+}
+
+bool reportStopped(const Foam::Time& runTime)
+{
+    const Foam::dictionary& controls = runTime.controlDict();   // the clock's own endTime is the time of the stop
+    const Foam::word stopAt = controls.getOrDefault<Foam::word>("stopAt", "endTime");
+    const double endTime = controls.getOrDefault<double>("endTime", runTime.value());
+    if (stopAt == "endTime" || runTime.value() > endTime - 0.5*runTime.deltaTValue()) return false;
+    Foam::Info<< "Stopped by stopAt " << stopAt << " of system/controlDict at " << runTime.timeName() << " s, before endTime, " << endTime << " s. "
+        << (stopAt == "noWriteNow" ? "Nothing was written there" : "The state is written") << "; with stopAt endTime the run goes on from its last written time\n" << Foam::endl;
+    return true;
+}
+
+} // namespace flotsam
