@@ -249,7 +249,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         FlowState state;
         fields.readStart(state);
         if (!isContinued) report(state);
-        if (!isContinued) fitFirstStep(runTime, controls.time);
+        fitFirstStep(runTime, controls.time, !isContinued);
         reportEnded(runTime);
         checkInflow(adapter, halo, boundary, state, nullptr, runTime.value());
         reportPatches(controls, adapter, halo, boundary, state, nullptr, runTime.value(), runTime.endTime().value());
@@ -275,7 +275,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     installStopSignals();
 
     EditedControls edited(controls.time);
-    if (output.timeStep() <= 0) fitFirstStep(runTime, controls.time);
+    fitFirstStep(runTime, controls.time, output.timeStep() <= 0);
     if (!reportEnded(runTime)) warnUnwritten(runTime, writeTimes);
     bool isComplete = true;
     double dt = output.timeStep() > 0 ? output.timeStep() : firstStep(runTime, controls, adapter.mesh, halo)/timeStepGrowth;

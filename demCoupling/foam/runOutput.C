@@ -239,6 +239,7 @@ void RunOutput::end(const CoupledStep& step)
         {"contacts not converged", unfinishedContacts_}, {"limited faces of the phase field", limitedFaces_},
         {"elements shared by two solids (largest)", sharedElements_}};
     if (longSteps_ > 0) summary.anomalies.emplace_back(text("steps of a Courant number above ", RunLog::largeCourant), longSteps_);
+    summary.isTwoPhase = fluid_.isTwoPhase;
     summary.mass = mass_;
     summary.unbalancedVolume = unbalanced_;
     summary.structures = forces_.result();

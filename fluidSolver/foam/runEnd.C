@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam/runEnd.H"
 
+#include <algorithm>
+
 namespace flotsam
 {
 
-void fitFirstStep(Foam::Time& runTime, const TimeControls& time)
+void fitFirstStep(Foam::Time& runTime, const TimeControls& time, bool isAnew)
 {
+    if (!time.adjustTimeStep) return;
     const double left = runTime.endTime().value() - runTime.value();
-    if (time.adjustTimeStep && left > 0 && runTime.deltaTValue() > left) runTime.setDeltaT(left, false);
+    const double step = std::min(time.maxDeltaT, isAnew && left > 0 ? left : 1e300);
+    if (step < runTime.deltaTValue()) runTime.setDeltaT(step, false);
 }
 
 bool reportEnded(const Foam::Time& runTime)

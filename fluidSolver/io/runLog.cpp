@@ -65,6 +65,16 @@ std::timespec processorTime()
     return now;
 }
 
+/// Lines of the summary; scale: what errors are over [m^3].
+std::string volumes(const RunSummary& s, double scale)
+{
+    const double error = scale > 0 ? s.mass.error() / scale : 0;
+    if (!s.isTwoPhase)
+        return format("\n  volume of the fluid [m^3], which moving bodies change as they cut other elements\n  at the start %.8g, at the end %.8g: %.2g of it\n", s.mass.initial, s.mass.final, error);
+    return format("\n  liquid volume [m^3]\n  at the start %.8g, in %.8g, out %.8g, at the end %.8g\n  storage %.8g, error %.3g (%.2g of the liquid)\n", s.mass.initial, s.mass.inflow,
+        s.mass.outflow, s.mass.final, s.mass.storage(), s.mass.error(), error);
+}
+
 } // namespace
 
 const char* phaseName(Phase phase)
@@ -276,12 +286,8 @@ std::string RunLog::summary(const RunSummary& s)
                                                              : "Structure " + s.overlapPressedBy + " pressed them together: it moves as prescribed whatever is in its way";
         text += format("\n  contact surfaces overlapped by up to %.2g m, %.0f %% of the thinnest body. %s\n", s.largestOverlap, 100 * s.largestOverlap / s.thinnestBody, cause.c_str());
     }
-    text += "\n  liquid volume [m^3]\n";
-    text += format("  at the start %.8g, in %.8g, out %.8g, at the end %.8g\n", s.mass.initial, s.mass.inflow, s.mass.outflow,
-        s.mass.final);
     const double scale = std::max({s.mass.initial, s.mass.final, s.mass.inflow});
-    text += format("  storage %.8g, error %.3g (%.2g of the liquid)\n", s.mass.storage(), s.mass.error(),
-        scale > 0 ? s.mass.error() / scale : 0);
+    text += volumes(s, scale);
 
     if (s.unbalancedVolume > negligibleVolume * scale)
     {

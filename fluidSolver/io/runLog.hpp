@@ -126,6 +126,7 @@ struct RunSummary
     double largestOverlap = 0, thinnestBody = 0;            ///< of contact surfaces since the start; smallest extent of a body [m]
     std::string overlapPressedBy;                           ///< structure whose prescribed motion made that overlap; empty: none
     std::vector<std::pair<std::string, long long>> anomalies; ///< counted: "clipped alpha", "rejected steps", ...
+    bool isTwoPhase = true;                                 ///< of a single fluid `mass` knows nothing of what enters and leaves
     MassBalance mass;
     double unbalancedVolume = 0;                            ///< swept in basins without a prescribed pressure beyond what these can give [m^3]
     std::vector<MemberForces> structures;

@@ -157,6 +157,9 @@ setEntry over/system/controlDict adjustTimeStep no
 (cd over && quietly flotsamFoam -dry-run && grep -q 'Nothing to do: .* is 0.002 s, not half a step of 0.01 s later' log.flotsamFoam) || fail "the dry run of less than half a step does not say so"
 setEntry over/system/controlDict adjustTimeStep yes
 (cd over && quietly flotsamFoam && ! grep -q 'Nothing to do' log.flotsamFoam && grep -qE '^ +[0-9]+ +0\.002 ' log.flotsamFoam) || fail "a first step longer than the run: $(tail -n 5 over/log.flotsamFoam)"
+(cd over && setEntry system/controlDict writeControl timeStep && setEntry system/controlDict writeInterval 1 && quietly flotsamFoam \
+    && setEntry system/controlDict endTime 0.0022 && setEntry system/controlDict maxDeltaT 0.0001 && quietly flotsamFoam && ! grep -q 'Nothing to do' log.flotsamFoam && [ -e 0.0022 ]) \
+    || fail "a run that goes on for less than half of its last step, with a smaller maxDeltaT: $(tail -n 5 over/log.flotsamFoam)"
 rm -rf dry && cp -r good dry
 (cd dry && cp 0.orig/alpha.water 0/alpha.water && quietly flotsamFoam -dry-run && grep -q 'alpha.water of time 0 has no liquid' log.flotsamFoam) || fail "a tank without liquid is not mentioned"
 rm -rf thin && cp -r good thin

@@ -172,6 +172,9 @@ TEST_CASE("the summary names phases, anomalies, mass balance and forces")
     const std::string pressed = RunLog::summary(s);
     CHECK(contains(pressed, "15 % of the thinnest body. Structure gate pressed them together"));
     CHECK(!contains(pressed, "too soft"));
+    s.isTwoPhase = false; // what enters is not counted
+    CHECK(contains(RunLog::summary(s), "at the start 1, at the end 1.25: "));
+    CHECK(!contains(RunLog::summary(s), "liquid"));
     CHECK(s.mass.error() == near(1e-9, 3e-7));
     CHECK(MassBalance{2, 0.5, 1, 1.501}.relativeError() == near(0.0005, 1e-9));     // over the start
     CHECK(MassBalance{0, 2, 1, 1.01}.relativeError() == near(0.01/1.01, 1e-9));     // a channel that begins dry
