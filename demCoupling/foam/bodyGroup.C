@@ -37,14 +37,33 @@ void readGroupSpheres(const Foam::dictionary& dict, BodyGroup& group)
     if (dict.found("spheres")) readSpheres(subGroup(dict, "spheres"), thinnest, group.sphereRadius, group.sphereSpacing);
 }
 
+/// Of the box around the body [m2].
+double boxArea(const BodyDefinition& body)
+{
+    const auto [lower, upper] = body.shape->bounds();
+    const Vec3 s = upper - lower;
+    return 2*(s[0]*s[1] + s[1]*s[2] + s[2]*s[0]);
+}
+
+/// Such that the smallest spheres of any body do not sink in between; more than 16 times as many as without them only up to a number that costs little.
+double chooseSpacing(const BodyGroup& group, double smallest)
+{
+    constexpr double enough = 4000;
+    const double R = group.sphereRadius, wanted = closedSpacing(R, smallest, 0);
+    if (group.prototype.isPlanar) return wanted;    // around a section there are few
+    const double s = closedSpacing(R, smallest, std::min(0.5*R, std::sqrt(boxArea(group.prototype)/enough)));
+    if (s > wanted)
+        Foam::Info<< "Warning: body " << group.prototype.name << " is so thick beside others that these sink in between its contact spheres, of radius " << R << " m and " << s << " m apart, where "
+            << wanted << " m would be needed. Give it smaller ones in constant/bodies, spheres { radius ..; }" << Foam::nl;
+    return s;
+}
+
 /// Before they are made: a radius in other units than m would fill the memory.
 void checkSphereCount(const BodyGroup& group, double spacing)
 {
     constexpr double most = 1e6;
     const BodyDefinition& body = group.prototype;
-    const auto [lower, upper] = body.shape->bounds();
-    const Vec3 s = upper - lower;
-    const double area = 2*(s[0]*s[1] + s[1]*s[2] + s[2]*s[0]), count = area/(spacing*spacing);
+    const double count = boxArea(body)/(spacing*spacing);
     if (body.isPlanar || count <= most) return;
     failIn(*group.dict, text("Body ", body.name, " would have some ", count, " contact spheres of radius ", group.sphereRadius, " m, ", spacing, " m apart; allowed: ", most,
         ".\n    Give larger ones, spheres { radius; spacing; } [m]; its smallest extent is ", body.thinnest, " m."));
@@ -74,11 +93,11 @@ void readSpheres(const Foam::dictionary& dict, double thinnest, double& radius, 
     spacing = readNumberOr(dict, "spacing", 0, {0, 4*radius, true}, "At most twice the diameter, or bodies pass between the spheres.");
 }
 
-double closedSpacing(double R, double r)
+double closedSpacing(double R, double r, double finest)
 {
-    constexpr double height = 0.41421356237309503, most = 0.25; // beyond: 16 times as many spheres
+    constexpr double height = 0.41421356237309503;
     const double low = R + height*r, s = std::sqrt(2*((R + r)*(R + r) - low*low));
-    return r < R ? std::clamp(s, most*2*R, 2*R) : 2*R;
+    return r < R ? std::clamp(s, std::min(finest, 2*R), 2*R) : 2*R;
 }
 
 double thinnestExtent(const Shape& shape, const SceneFrame& frame)
@@ -116,7 +135,7 @@ void makeSpheres(std::vector<BodyGroup>& groups)
     for (const BodyGroup& g : groups) smallest = std::min(smallest, g.sphereRadius);
     for (BodyGroup& g : groups)
     {
-        const double spacing = g.sphereSpacing > 0 ? g.sphereSpacing : closedSpacing(g.sphereRadius, smallest);
+        const double spacing = g.sphereSpacing > 0 ? g.sphereSpacing : chooseSpacing(g, smallest);
         const double ofRows = g.sphereSpacing > 0 ? g.sphereSpacing : 0.5*g.sphereRadius;
         checkSphereCount(g, spacing);
         BodyDefinition& body = g.prototype;

@@ -35,7 +35,7 @@ std::vector<SurfaceSphere> contactSpheres(const StructureDefinition& s, const Sc
     if (s.sphereSpacing > 0) return at(s.sphereSpacing);
     const double finest = (frame.isPlanar ? 0.125 : 0.25)*radius;
     const std::size_t growth = frame.isPlanar ? 2 : 4;  // of their number, at half the spacing
-    double spacing = closedSpacing(radius, smallest);
+    double spacing = closedSpacing(radius, smallest, 0.5*radius);
     std::vector<SurfaceSphere> spheres = at(spacing);
     while (spheres.size() > 1 && growth*spheres.size() <= enoughSpheres && spacing > finest)
         spheres = at(spacing = std::max(finest, 0.5*spacing));

@@ -100,10 +100,11 @@ TEST_CASE("the spheres of a thin body do not get between those of a thick one")
         "type union; parts { a { type box; size (0.3 0.1 0.1); } b { type box; size (0.1 0.25 0.1); } }",
         "type union; parts { trunk { type cylinder; end1 (0 0 0); end2 (0.4 0 0); radius 0.05; } wad { type cylinder; end1 (0 0 0); end2 (0.1 0 0); radius 0.15; } }"};
     for (const std::string& shape : thick)
-        for (const double thinner : {1.0, 1.5, 2.0, 4.0, 7.0})
+        for (const double thinner : {1.0, 1.5, 2.0, 4.0, 7.0, 12.0, 25.0})
         {
             CAPTURE(shape);
             CAPTURE(thinner);
+            if (thinner > 20 && shape.find("union") != std::string::npos) continue;     // would need more than 4000: a warning
             const BodiesInput input = s.read("bodies { thick { shape { " + shape + " } density 600; position (1 0.5 0.2); } thin { shape { type box; size (0.2 "
                 + std::to_string(0.1/thinner) + " 0.1); } density 600; position (0.3 0.5 0.2); } }");
             const BodyDefinition& body = input.bodies[0];
