@@ -99,6 +99,23 @@ std::string bodyInStream(const BodiesInput& input, const SimplexMesh& mesh, cons
     return "";
 }
 
+namespace
+{
+
+/// Bodies whose edges, rounded in contact, are wider than others are thick: these sink into them and slide off. Empty: none.
+std::string roundedEdges(const BodiesInput& input)
+{
+    const double thinnest = thinnestBody(input);
+    const auto isRounded = [&](const BodyDefinition& b) { return b.shape->hasPlaneFaces() && b.spheres.front().radius > thinnest; };
+    const auto [body, who] = firstOf(input.bodies, isRounded);
+    if (!body) return "";
+    const double radius = body->spheres.front().radius;
+    return text("body ", who, " is thick beside others, of ", thinnest, " m: in contact its edges are rounded by the radius of its spheres, ", radius,
+        " m, and those sink into them and slide off. Where that matters give it `spheres { radius ", thinnest, "; }`");
+}
+
+} // namespace
+
 std::vector<std::string> doubtfulBodies(const BodiesInput& input, const FluidProperties& fluid, double endTime)
 {
     std::vector<std::string> doubts;
@@ -130,6 +147,8 @@ std::vector<std::string> doubtfulBodies(const BodiesInput& input, const FluidPro
     if (const auto law = std::find_if(input.laws.begin(), input.laws.end(), isCoefficient); law != input.laws.end())
         doubts.push_back(text("frictionAngle ", law->frictionAngleDeg, " of constant/bodies is in degrees, a friction coefficient of ", std::tan(law->frictionAngleDeg*M_PI/180),
             ": for a coefficient of ", law->frictionAngleDeg, " give ", std::atan(law->frictionAngleDeg)*180/M_PI));
+
+    if (const std::string edges = roundedEdges(input); !edges.empty()) doubts.push_back(edges);
 
     const auto staysHeld = [&](const BodyDefinition& b) { return b.releaseTime > 0 && b.releaseTime >= endTime; };
     if (const auto [body, who] = firstOf(input.bodies, staysHeld); body)

@@ -49,13 +49,8 @@ double boxArea(const BodyDefinition& body)
 double chooseSpacing(const BodyGroup& group, double smallest)
 {
     constexpr double enough = 4000;
-    const double R = group.sphereRadius, wanted = closedSpacing(R, smallest, 0);
-    if (group.prototype.isPlanar) return wanted;    // around a section there are few
-    const double s = closedSpacing(R, smallest, std::min(0.5*R, std::sqrt(boxArea(group.prototype)/enough)));
-    if (s > wanted)
-        Foam::Info<< "Warning: body " << group.prototype.name << " is so thick beside others that these sink in between its contact spheres, of radius " << R << " m and " << s << " m apart, where "
-            << wanted << " m would be needed. Give it smaller ones in constant/bodies, spheres { radius ..; }" << Foam::nl;
-    return s;
+    const double R = group.sphereRadius;
+    return closedSpacing(R, smallest, group.prototype.isPlanar ? 0 : std::min(0.5*R, std::sqrt(boxArea(group.prototype)/enough))); // around a section there are few
 }
 
 /// Before they are made: a radius in other units than m would fill the memory.

@@ -373,6 +373,11 @@ TEST_CASE("bodies lighter than the gas, those that their weight presses deep int
     CHECK(doubts("stiffness 1e8;", "density 19300;").empty());
     CHECK(doubts("stiffness 1e4; frictionAngle 0;", "density 600;").empty());
     CHECK(doubts("stiffness 1e4; frictionAngle 2;", "density 600;").empty());
+    const std::string stick = " stick { shape { type box; size (0.2 0.02 0.02); } density 600; position (0.5 0.8 0.2); } ";
+    const auto beside = [&](const std::string& spheres) { return doubtfulBodies(s.read("bodies { block { shape { type box; size (0.2 0.2 0.2); } density 600; position (0.5 0.5 0.2); " + spheres + " }" + stick + "}"), fluid, 5); };
+    REQUIRE(beside("").size() == 1);
+    CHECK(has(beside("")[0], "body block is thick beside others, of 0.02 m: in contact its edges are rounded by the radius of its spheres, 0.05 m"));
+    CHECK(beside("spheres { radius 0.02; }").empty());
     const auto coefficient = doubts("stiffness 1e4; frictionAngle 0.577;", "density 600;");
     REQUIRE(coefficient.size() == 1);
     CHECK(has(coefficient[0], "frictionAngle 0.577 of constant/bodies is in degrees, a friction coefficient of 0.0100709: for a coefficient of 0.577 give 29.98"));

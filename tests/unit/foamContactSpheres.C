@@ -104,7 +104,7 @@ TEST_CASE("the spheres of a thin body do not get between those of a thick one")
         {
             CAPTURE(shape);
             CAPTURE(thinner);
-            if (thinner > 20 && shape.find("union") != std::string::npos) continue;     // would need more than 4000: a warning
+            if (thinner > 20 && shape.find("union") != std::string::npos) continue;     // would need more than 4000
             const BodiesInput input = s.read("bodies { thick { shape { " + shape + " } density 600; position (1 0.5 0.2); } thin { shape { type box; size (0.2 "
                 + std::to_string(0.1/thinner) + " 0.1); } density 600; position (0.3 0.5 0.2); } }");
             const BodyDefinition& body = input.bodies[0];
