@@ -224,13 +224,13 @@ std::vector<BoundaryPatch> readBoundary(const Foam::polyMesh& mesh, const MeshAd
     return result;
 }
 
-std::string describe(const BoundaryPatch& patch)
+std::string describe(const BoundaryPatch& patch, bool isTwoPhase)
 {
     static const char* velocity[] = {"prescribed", "slip", "no-slip", "open"};
     static const char* pressure[] = {"from the flow", "prescribed", "total pressure where fluid enters"};
     static const char* phase[] = {"from the flow", "prescribed where fluid enters"};
     return text(patch.name, ": velocity ", patch.isNoSlipWall && patch.velocity == BoundaryPatch::Velocity::Fixed ? "no-slip at the nodes" : velocity[static_cast<int>(patch.velocity)],
-        ", pressure ", pressure[static_cast<int>(patch.pressure)], ", phase ", phase[static_cast<int>(patch.phase)]);
+        ", pressure ", pressure[static_cast<int>(patch.pressure)], isTwoPhase ? text(", phase ", phase[static_cast<int>(patch.phase)]) : "");
 }
 
 } // namespace flotsam

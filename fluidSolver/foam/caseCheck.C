@@ -161,7 +161,7 @@ void printCaseCheck(const CaseControls& controls, const MeshAdapter& adapter, co
     const std::string changed = changedNumerics(controls.numerics);
     line("numerics", text(changed.empty() ? "all entries of `flotsam` have their defaults" : "defaults, but " + changed, "; solvers, PIMPLE (pRefValue excepted) and fvSchemes are not used"));
     if (const std::string idle = idleWallLaw(controls.numerics, boundary); !idle.empty()) line("warning", idle);
-    for (const auto& patch : boundary) line("patch", describe(patch));
+    for (const auto& patch : boundary) line("patch", describe(patch, controls.fluid.isTwoPhase));
     for (const auto& patch : boundary)
         if (isOpenWall(patch, mesh)) line("warning", text("patch ", patch.name, " is of type wall, but its U lets fluid through. Give it noSlip or slip; in 2D the front and back are of type empty"));
     for (const auto& patch : boundary)

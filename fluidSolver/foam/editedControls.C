@@ -24,6 +24,7 @@ std::string readInto(TimeControls& time, const Foam::dictionary& controlDict)
         mistake = error.message();
     }
     Foam::FatalIOError.throwExceptions(didThrow);
+    while (!mistake.empty() && mistake.back() == '\n') mistake.pop_back();
     return mistake;
 }
 
