@@ -13,7 +13,8 @@ namespace flotsam
 namespace
 {
 
-/// Relative difference of squared distances below which two planes count as equally near.
+/// Relative difference of squared distances below which two planes count as equally near. At a node that the surface goes through all of them are round-off: there they
+/// count so within this share of the planes' reach.
 constexpr double tieTolerance = 1e-9;
 
 constexpr double none = std::numeric_limits<double>::infinity();
@@ -90,13 +91,14 @@ inline void InterfacePlanes::offer(const SimplexMesh& mesh, int node, const doub
     double* own = &next_[static_cast<std::size_t>(node)*width];
     if (now < none)
     {
-        const double tolerance = tieTolerance*std::max(now, then);
+        const double roundOff = tieTolerance*std::max(plane[2*dim], own[2*dim]);
+        const double tolerance = tieTolerance*std::max(now, then) + roundOff*roundOff;
         if (then > now + tolerance)
             return;
         if (then > now - tolerance)
         {
             const bool isSame = then == now && std::equal(plane, plane + width, own);
-            if (isSame || !comesFirst(plane, own, dim, std::sqrt(std::max(now, then))*tieTolerance))
+            if (isSame || !comesFirst(plane, own, dim, std::sqrt(std::max(now, then))*tieTolerance + roundOff))
                 return;
         }
     }
