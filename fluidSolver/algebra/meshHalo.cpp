@@ -83,6 +83,22 @@ std::vector<int> placeNodes(const ElementRings& rings, SimplexMesh& mesh)
     return newNode;
 }
 
+/// Whose sums an element counts in: the rank's that brought it, where that owns one of its nodes; else (a rank may have brought few cells and own none of their
+/// nodes) the lowest that does. Whoever owns no node of an element lacks what is found for elements of owned nodes alone, fluxes of the phase field for one.
+int ownerOfElement(const ElementRings& rings, std::size_t element)
+{
+    const int* nodes = &rings.elementNodes[element * (rings.dim + 1)];
+    const int home = rings.elements[element].home;
+    int lowest = rings.nodes[nodes[0]].owner;
+    for (int a = 0; a <= rings.dim; ++a)
+    {
+        const int owner = rings.nodes[nodes[a]].owner;
+        if (owner == home) return home;
+        lowest = std::min(lowest, owner);
+    }
+    return lowest;
+}
+
 /// facePatch: reordered like the elements.
 std::vector<int> placeElements(const ElementRings& rings, const std::vector<int>& newNode, SimplexMesh& mesh, std::vector<int>& facePatch)
 {
@@ -96,7 +112,7 @@ std::vector<int> placeElements(const ElementRings& rings, const std::vector<int>
     facePatch.resize(rings.facePatch.size());
     for (int e = 0; e < mesh.nElements; ++e)
     {
-        mesh.isOwnedElement[newElement[e]] = rings.elements[e].home == rings.rank;
+        mesh.isOwnedElement[newElement[e]] = ownerOfElement(rings, e) == rings.rank;
         for (int a = 0; a < n; ++a)
         {
             const std::size_t from = static_cast<std::size_t>(e) * n + a, to = static_cast<std::size_t>(newElement[e]) * n + a;

@@ -34,7 +34,7 @@ struct SimplexMesh
 
     std::vector<double> x;          ///< nNodes*dim, in-plane coordinates [m]
     std::vector<int> elements;      ///< nElements*(dim+1) local nodes, positive volume
-    std::vector<char> isOwnedElement; ///< 1 on exactly one rank per element: use it for global sums
+    std::vector<char> isOwnedElement; ///< 1 on exactly one rank per element, one that owns a node of it: use it for global sums
     std::vector<std::int64_t> globalNode;   ///< nNodes; contiguous per rank for owned nodes: firstGlobal + i
     std::vector<std::int64_t> originalNode; ///< nNodes; 0..nGlobal-1, does not depend on the decomposition
     std::vector<int> nodeOwner;     ///< nNodes; rank that owns the node

@@ -306,11 +306,11 @@ void CoverBuilder::forEachLocalAlone(const Solid& solid, const std::vector<Sampl
     }
 }
 
-/// Those of them that are owned or inner.
+/// Those of them that are inner.
 template <class Visit, class Accept>
 void CoverBuilder::forEachElementAlone(const Solid& solid, const std::vector<Sample>& samples, Visit visit, Accept accept)
 {
-    forEachLocalAlone(solid, samples, [&](int e) { if (mesh_.isOwnedElement[e] || e < mesh_.nInnerElements) visit(e); }, accept);
+    forEachLocalAlone(solid, samples, [&](int e) { if (e < mesh_.nInnerElements) visit(e); }, accept);
 }
 
 /// distance: dim+1, of the nodes, within forEachLocalAlone().

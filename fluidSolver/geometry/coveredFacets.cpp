@@ -27,7 +27,7 @@ void CoverBuilder::findCovered(Cover& cover, const std::vector<Solid>& solids)
         }, [this](int node) { return isSharedNode_[node] != 0; });
     }
     for (const CutElement& cut : cover.cuts)
-        if ((mesh_.isOwnedElement[cut.element] || cut.element < mesh_.nInnerElements) && isShared(cover, cover.nearestSolid[nodesOf(cut.element)[0]], cut.element))
+        if (cut.element < mesh_.nInnerElements && isShared(cover, cover.nearestSolid[nodesOf(cut.element)[0]], cut.element))
             subtractCut(cover, solids, cut);
     for (CoveredVolume& volume : cover.coveredVolumes)
     {

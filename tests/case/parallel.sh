@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# parallel.sh 2D|3D|few|edge|steep: the same results on one process and on two; few: on four, three of which have one cell each and own no node of the mesh;
-# edge: a box that turns, pairs of cells on either process in turn; steep: a stream that rises at pipes, on three, cells on any of them.
+# parallel.sh 2D|3D|few|edge|alone|steep: the same results on one process and on two; few: on four, three of which have one cell each and own no node of the mesh;
+# edge: a box that turns, pairs of cells on either process in turn; alone: a block whose corners are at the surface, every third cell on a process that owns no node; steep: a stream that rises at pipes, on three, cells on any of them.
 . "$(dirname "$0")/support.sh"
 mkdir -p "$work" && cd "$work" || exit
 
@@ -33,6 +33,13 @@ case $1 in
         divide serial 2 'int(i/2) % 2'
         tolerance=1e-12 allowed=5e-8
         ;;
+    alone)
+        makeFloatingBar serial && fixedSteps serial 0.001 0.005 5
+        sed -i '/^bodies$/,$d' serial/constant/bodies
+        echo 'structures { block { shape { type box; size (0.05 0.05 0.1); } position (0.001 -0.025 0.025); orientation { axis (0 0 1); angleDeg 10; } } }' >> serial/constant/bodies
+        divide serial 2 'i % 3 == 1'
+        tolerance=1e-12 allowed=5e-8
+        ;;
     steep)
         makeJam serial && fixedSteps serial 0.004 0.032 8
         sed -i '/^bodies$/,$d' serial/constant/bodies
@@ -40,7 +47,7 @@ case $1 in
         divide serial 3 '(i*i + int(i/7)) % 3'
         tolerance=1e-12 allowed=5e-8
         ;;
-    *) fail "2D, 3D, few, edge or steep" ;;
+    *) fail "2D, 3D, few, edge, alone or steep" ;;
 esac
 # the linear solves stop at a tolerance: small enough not to be what is compared
 setNumerics serial "tolerance $tolerance; maxIterations 1000;"

@@ -103,7 +103,7 @@ double cellVolumeError(const Foam::polyMesh& foam, const MeshAdapter& adapter)
         for (Foam::label k = adapter.cellStart[c]; k < adapter.cellStart[c + 1]; ++k)
         {
             const int e = adapter.cellElements[k];
-            volume += adapter.mesh.isOwnedElement[e] ? adapter.mesh.volume[e] : 1e300;
+            volume += adapter.mesh.volume[e];
         }
         const double exact = foam.cellVolumes()[c];
         worst = std::max(worst, std::abs(volume * adapter.mesh.thickness - exact) / exact);

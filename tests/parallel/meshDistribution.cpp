@@ -90,7 +90,7 @@ void checkPartition(int dim, const RankOfElement& rankOf)
         const int element = distributed.elementOfInput[k / (dim + 1)];
         const int node = distributed.nodeOfInput[share.elements[k]];
         const auto first = mesh.elements.begin() + element * (dim + 1);
-        inputFound = inputFound && mesh.isOwnedElement[element] && std::count(first, first + dim + 1, node) == 1
+        inputFound = inputFound && std::count(first, first + dim + 1, node) == 1
             && mesh.x[node * dim] == share.x[share.elements[k] * dim];
     }
     CHECK(inputFound);

@@ -120,6 +120,10 @@ std::string checkRings(const SimplexMesh& mesh, const Halo& halo)
             held[node] += 1;
             isInner = isInner || node < mesh.nOwned;
         }
+        if (mesh.isOwnedElement[e] && !isInner)
+        {
+            return "an element is counted where none of its nodes is owned";
+        }
         if (isInner != (e < mesh.nInnerElements))
         {
             return "the inner elements do not come first";
