@@ -276,13 +276,10 @@ inline bool loadResidualData(int e, const SimplexMesh& mesh, const FlowStepData&
     constexpr int N = D + 1;
     if (!loadMeans<D>(e, mesh, step, controls, nodal, data, source)) return false;
     const int* nodes = &mesh.elements[std::size_t(e)*N];
-    const bool mayHaveFluxes = step.transport && isCarried(nodes, N, nodal) && (!source.cut || isAtRest(step, *source.cut));
-    if (mayHaveFluxes) source.fluxes = step.transport->fluxes(e);
+    if (step.transport && isCarried(nodes, N, nodal) && (!source.cut || isAtRest(step, *source.cut))) source.fluxes = step.transport->fluxes(e);
     data.isVarying = source.fluxes.total != nullptr;
     source.time = step.time;
-    // of the second ring this process has none, but asks for the residual's u', which others have of the same element (ghost penalty)
-    const bool areElsewhere = mayHaveFluxes && e >= mesh.nInnerElements && variesAtNodes(nodes, N, nodal);
-    source.isSteep = isSteepElement<D>(data.isVarying || areElsewhere, data, nodes, nodal, source.rhoOld, source.rhoOlder);
+    source.isSteep = isSteepElement<D>(data.isVarying, data, nodes, nodal, source.rhoOld, source.rhoOlder);
     if (source.isSteep) source.time = TimeScheme::bdf(1, step.time.dt, 0);
     const double c1 = source.time.c1, c2 = source.time.c2;
     data.c0 = source.time.c0;

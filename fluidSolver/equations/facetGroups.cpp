@@ -43,13 +43,13 @@ void integrate(const CutFacet& facet, FacetGroup<D>& group)
 } // namespace
 
 template<int D>
-std::vector<FacetGroup<D>> groupFacets(const Cover& cover, int nInner, const std::vector<char>& isOwnedElement)
+std::vector<FacetGroup<D>> groupFacets(const Cover& cover, int nInner)
 {
     std::vector<FacetGroup<D>> groups;
     for (std::size_t c = 0; c < cover.cuts.size(); ++c)
     {
         const CutElement& cut = cover.cuts[c];
-        if (cut.element >= nInner && !isOwnedElement[cut.element]) continue;
+        if (cut.element >= nInner) continue;
         const std::size_t first = groups.size();
         for (int f = cut.facetStart; f < cut.facetEnd; ++f)
         {
@@ -64,7 +64,7 @@ std::vector<FacetGroup<D>> groupFacets(const Cover& cover, int nInner, const std
     return groups;
 }
 
-template std::vector<FacetGroup<2>> groupFacets<2>(const Cover&, int, const std::vector<char>&);
-template std::vector<FacetGroup<3>> groupFacets<3>(const Cover&, int, const std::vector<char>&);
+template std::vector<FacetGroup<2>> groupFacets<2>(const Cover&, int);
+template std::vector<FacetGroup<3>> groupFacets<3>(const Cover&, int);
 
 } // namespace flotsam

@@ -21,8 +21,8 @@ struct FacetGroup
     double ofMeans(int a, int b) const { return m1[a]*m1[b]/area; }
 };
 
-/// In the order of the solids; of elements beyond `nInner` the owned ones alone.
+/// In the order of the solids; of the first `nInner` elements.
 template<int D>
-std::vector<FacetGroup<D>> groupFacets(const Cover& cover, int nInner, const std::vector<char>& isOwnedElement);
+std::vector<FacetGroup<D>> groupFacets(const Cover& cover, int nInner);
 
 } // namespace flotsam

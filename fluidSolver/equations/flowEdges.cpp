@@ -134,7 +134,7 @@ void addRows(const EdgeTerms<D>& terms, const SimplexMesh& mesh, const NodeGraph
 {
     constexpr int N = D + 1, B = D + 1;
     const int e = terms.edge.element, *nodes = &mesh.elements[std::size_t(e)*N];
-    for (int a = 0; a < N && e < mesh.nInnerElements; ++a)
+    for (int a = 0; a < N; ++a)
     {
         if (nodes[a] >= mesh.nOwned) continue;
         for (int k = 0; k < D; ++k) system.rhs[std::size_t(nodes[a])*B + k] -= terms.force[a][k];
@@ -169,7 +169,7 @@ void FlowEquation::findEdgeElements(const std::map<int, SlipNormals>& slip)
             if (n != Vector{}) normals[i].push_back(n);
         }
     }
-    for (int e = 0; e < mesh_.nElements; ++e)
+    for (int e = 0; e < mesh_.nInnerElements; ++e)
     {
         const int* nodes = &mesh_.elements[std::size_t(e)*N];
         EdgeElement edge{e};
@@ -204,7 +204,7 @@ void FlowEquation::addSolidEdge(const SolidEdges::Element& edge, const Turning<D
     constexpr int N = D + 1, B = D + 1, nDof = RigidArm<D>::nDof;
     const bool isOwned = mesh_.isOwnedElement[edge.element];
     ElementData<D> data;
-    if ((!isOwned && edge.element >= mesh_.nInnerElements) || !loadElementData<D>(edge.element, mesh_, step_, fluid_, controls_, nodal_, data)) return;
+    if (!loadElementData<D>(edge.element, mesh_, step_, fluid_, controls_, nodal_, data)) return;
     const int* nodes = &mesh_.elements[std::size_t(edge.element)*N];
     const Solid& solid = (*step_.solids)[edge.solid];
     const EdgeTerms<D> terms(data, edge);
@@ -225,7 +225,7 @@ void FlowEquation::addSolidEdge(const SolidEdges::Element& edge, const Turning<D
             rigid.add(a, b, m, arm);
         }
         const int place = placeOf<D>(nodes[a], placeInSolid_, coupling);
-        if (edge.element < mesh_.nInnerElements && nodes[a] < mesh_.nOwned) rigid.subtractColumn(a, &coupling.column[std::size_t(place)*B*nDof]);
+        if (nodes[a] < mesh_.nOwned) rigid.subtractColumn(a, &coupling.column[std::size_t(place)*B*nDof]);
         if (!isOwned) continue;
         double* load = &ownLoads_[std::size_t(edge.solid)*nDof];
         arm[a].template addLoads<1>(terms.force[a], load);

@@ -346,7 +346,7 @@ inline void FlowEquation::fineScaleIn(const std::vector<double>& x, std::vector<
     ElementLanes<D, Real> lanes(mesh_, step_, fluid_, controls_, nodal_);
     ElementData<D> data;
     ElementSource source;
-    sweep<widthOf<Real>>(mesh_.nElements, [&](int e) { return kindOf<D>(e, mesh_, step_, controls_, nodal_); },
+    sweep<widthOf<Real>>(mesh_.nInnerElements, [&](int e) { return kindOf<D>(e, mesh_, step_, controls_, nodal_); },
         [&](const int* elements, ElementKind kind)
         {
             Real u[N*B], r[D];

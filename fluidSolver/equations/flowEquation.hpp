@@ -54,7 +54,7 @@ public:
     void applyConstraints(const std::vector<PatchValues>& values, std::vector<double>& x) const;
 
     /// u' = -tau (du/dt + a.grad u + (grad p - mu lap u - f)/rho) of the solution x, per element (nElements*dim) [m/s]; du/dt = c0 x + c1 u^n + c2 u^(n-1): the state
-    /// must still hold t^n. The continuity rows then are those of x + u'.
+    /// must still hold t^n. The continuity rows then are those of x + u'. Of inner elements, the others' entries are left as they are: ElementHalo.
     void fineScale(const std::vector<double>& x, std::vector<double>& result) const;
 
     /// Volume fluxes of the pressure ghost terms and of films on walls between node pairs, for the conservative transport:

@@ -99,7 +99,7 @@ void FlowEquation::addFacetGroup(const FacetGroup<D>& group, const Solid& solid,
     RigidBlocks<D> rigid;
     for (int a = 0; a < N; ++a)
     {
-        const bool isRow = group.element < mesh_.nInnerElements && nodes[a] < mesh_.nOwned;
+        const bool isRow = nodes[a] < mesh_.nOwned;
         for (int b = 0; b < N; ++b)
         {
             double m[B*B];
@@ -127,7 +127,7 @@ void FlowEquation::assembleWalls()
     const std::vector<Solid>& solids = *step_.solids;
     system_.solids.resize(solids.size());
     for (SolidCoupling& coupling : system_.solids) coupling.clear();
-    const std::vector<FacetGroup<D>> groups = groupFacets<D>(*step_.cover, mesh_.nInnerElements, mesh_.isOwnedElement);
+    const std::vector<FacetGroup<D>> groups = groupFacets<D>(*step_.cover, mesh_.nInnerElements);
     placeInSolid_.resize(mesh_.nNodes, -1);
     sweptOfCut_.assign(step_.cover->cuts.size()*(D + 1), 0.0);
     ownLoads_.assign(solids.size()*nDof, 0.0);

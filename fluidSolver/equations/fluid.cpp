@@ -15,7 +15,7 @@ namespace flotsam
 
 Fluid::Fluid(const SimplexMesh& mesh, const Halo& halo, const FluidProperties& fluid, const NumericsControls& controls,
     const std::vector<BoundaryPatch>& patches)
-:   mesh_(mesh), halo_(halo), graph_(mesh), fluid_(fluid), controls_(controls), patches_(patches), values_(patches.size()),
+:   mesh_(mesh), halo_(halo), graph_(mesh), elementHalo_(mesh, graph_, halo), fluid_(fluid), controls_(controls), patches_(patches), values_(patches.size()),
     equation_(mesh, graph_, halo, fluid_, controls_, patches_), solver_(mesh, graph_, halo, controls_),
     transport_(mesh, graph_, halo, controls_, fluid_.gravity), massFluxes_(mesh, fluid_, controls_), surfaceLevel_(mesh, halo, fluid_.gravity), basins_(mesh, halo), pockets_(mesh, graph_, halo)
 {
@@ -326,6 +326,7 @@ void Fluid::endStep()
     if (controls_.carryRemainder) solver_.remainder(x_, q_, state_.remainder); else state_.remainder.clear();
     if (patchForces_) findPatchForces();
     equation_.fineScale(x_, state_.fineScaleOld);   // before the time levels move on: of the step's own residual, that of the continuity rows
+    elementHalo_.update(state_.fineScaleOld, dim);  // counts in the ghost penalty of faces to the second ring
     std::swap(state_.fineScale, state_.fineScaleOld);
     std::swap(state_.u, state_.uOld);
     state_.pOld = state_.p;

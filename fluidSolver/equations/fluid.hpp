@@ -8,6 +8,7 @@
 ///   endStep()      accept; or rejectStep(): back to t
 #pragma once
 
+#include "algebra/elementHalo.hpp"
 #include "algebra/flowLinearSolver.hpp"
 #include "equations/basins.hpp"
 #include "equations/dualCellTransport.hpp"
@@ -137,6 +138,7 @@ private:
     const SimplexMesh& mesh_;
     const Halo& halo_;
     NodeGraph graph_;
+    ElementHalo elementHalo_;
     FluidProperties fluid_;
     NumericsControls controls_;
     std::vector<BoundaryPatch> patches_;

@@ -46,7 +46,7 @@ bool areTwo(int faces) { return (faces & (faces - 1)) != 0; }   // or more
 } // namespace
 
 template<int D>
-void SolidEdges::find(const std::vector<FacetGroup<D>>& innerGroups, const SimplexMesh& mesh, const Halo& halo, const Cover& cover, const std::vector<Solid>& solids)
+void SolidEdges::find(const std::vector<FacetGroup<D>>& groups, const SimplexMesh& mesh, const Halo& halo, const Cover& cover, const std::vector<Solid>& solids)
 {
     constexpr int N = D + 1;
     elements_.clear();
@@ -54,9 +54,6 @@ void SolidEdges::find(const std::vector<FacetGroup<D>>& innerGroups, const Simpl
     std::transform(solids.begin(), solids.end(), has_.begin(), hasEdges);
     isAny_ = std::any_of(has_.begin(), has_.end(), [](char has) { return has; });
     if (!isAny_) return;
-    const bool areAllInner = mesh.nInnerElements == mesh.nElements;
-    const std::vector<FacetGroup<D>> all = areAllInner ? std::vector<FacetGroup<D>>() : groupFacets<D>(cover, mesh.nElements, mesh.isOwnedElement);
-    const std::vector<FacetGroup<D>>& groups = areAllInner ? innerGroups : all;
     const auto isInside = [&](int node, int solid) { return cover.distance[node] < 0 && cover.nearestSolid[node] == solid; };
     faceOfGroup_.assign(groups.size(), 0);
     facesAt_.assign(mesh.nNodes, 0);

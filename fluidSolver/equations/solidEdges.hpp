@@ -35,9 +35,9 @@ struct EdgeElement
 class SolidEdges
 {
 public:
-    /// Collective. innerGroups: of all inner and owned elements, ordered by solids.
+    /// Collective. groups: of all inner elements, ordered by solids.
     template<int D>
-    void find(const std::vector<FacetGroup<D>>& innerGroups, const SimplexMesh& mesh, const Halo& halo, const Cover& cover, const std::vector<Solid>& solids);
+    void find(const std::vector<FacetGroup<D>>& groups, const SimplexMesh& mesh, const Halo& halo, const Cover& cover, const std::vector<Solid>& solids);
 
     /// Whether there may be any, the same on all ranks.
     bool isAny() const { return isAny_; }
@@ -46,7 +46,7 @@ public:
         int solid;
         double normal[3];   ///< of the face, out of the fluid
     };
-    /// Of all elements those over one face alone, ordered by solids. Of the second ring, too: their u' (takeWhatWouldPass()) counts in the ghost penalty of faces to inner ones.
+    /// Of the inner elements those over one face alone, ordered by solids.
     const std::vector<Element>& elements() const { return elements_; }
 
 private:

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "algebra/elementHalo.hpp"
 #include "algebra/meshHalo.hpp"
 #include "support/boxMesh.hpp"
 #include "support/meshChecks.hpp"
@@ -7,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 using namespace flotsam;
@@ -60,6 +62,16 @@ LocalSimplices takeShare(const SimplexMesh& whole, const RankOfElement& rankOf, 
     return share;
 }
 
+double centre(const SimplexMesh& mesh, int e, int direction)
+{
+    double sum = 0;
+    for (int a = 0; a <= mesh.dim; ++a)
+    {
+        sum += mesh.x[mesh.elements[e * (mesh.dim + 1) + a] * mesh.dim + direction];
+    }
+    return sum / (mesh.dim + 1);
+}
+
 void checkPartition(int dim, const RankOfElement& rankOf)
 {
     const SimplexMesh whole = makeBoxMesh(MPI_COMM_SELF, dim, {9, 5, 4}, {0, 0, 0}, {1.8, 1, 0.6}, 0.15);
@@ -84,6 +96,15 @@ void checkPartition(int dim, const RankOfElement& rankOf)
         CHECK(shared.nodalPatchArea[p] == near(serial.patchArea[p], 2e-14));
     }
 
+    std::vector<double> values(2*std::size_t(mesh.nElements), 0.0);
+    for (int e = 0; e < mesh.nInnerElements; ++e)
+        for (int d = 0; d < 2; ++d) values[2*std::size_t(e) + d] = centre(mesh, e, d);
+    ElementHalo(mesh, NodeGraph(mesh), halo).update(values, 2);
+    double worst = 0;
+    for (int e = 0; e < mesh.nElements; ++e)
+        for (int d = 0; d < 2; ++d) worst = std::max(worst, std::abs(values[2*std::size_t(e) + d] - centre(mesh, e, d)));
+    CHECK(worst < 1e-14);   // also of elements of which this rank owns no node
+
     bool inputFound = true;
     for (std::size_t k = 0; k < share.elements.size(); ++k)
     {
@@ -101,16 +122,6 @@ int rankCount()
     int size = 1;
     MPI_Comm_size(MPI_COMM_WORLD, &size);
     return size;
-}
-
-double centre(const SimplexMesh& mesh, int e, int direction)
-{
-    double sum = 0;
-    for (int a = 0; a <= mesh.dim; ++a)
-    {
-        sum += mesh.x[mesh.elements[e * (mesh.dim + 1) + a] * mesh.dim + direction];
-    }
-    return sum / (mesh.dim + 1);
 }
 
 } // namespace
