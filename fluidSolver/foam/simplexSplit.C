@@ -40,6 +40,9 @@ namespace
 /// (flat tetrahedra of a cell with coplanar faces) take a point at the centre.
 constexpr scalar goodFraction = 0.02, leastFraction = 1e-4;
 
+/// Difference of such fractions, and of lengths over the cell's, that may be round-off: other processes have a cell's faces in another order.
+constexpr scalar tieMargin = 1e-9;
+
 using Tetrahedron = std::array<int, 4>;
 
 class CellSplitter
@@ -78,7 +81,7 @@ private:
         for (const label apex : cellPoints_)
         {
             const scalar quality = pull(celli, apex, mesh_.points()[apex]) / volumes_[celli];
-            if (quality > best)
+            if (quality > best + tieMargin)
             {
                 best = quality;
                 best_.swap(trial_);
@@ -116,13 +119,14 @@ private:
     point visiblePoint(label celli)
     {
         point x = mesh_.cellCentres()[celli], best = x;
-        scalar bestDistance = -VGREAT, step = 0.2 * Foam::cbrt(volumes_[celli]);
+        const scalar length = Foam::cbrt(volumes_[celli]);
+        scalar bestDistance = -VGREAT, step = 0.2 * length;
         constexpr int nSteps = 100;
         for (int i = 0; i < nSteps; ++i, step *= 0.96)
         {
             vector inward;
-            const scalar distance = nearestTriangle(celli, x, inward);
-            if (distance > bestDistance)
+            const scalar distance = nearestTriangle(celli, x, tieMargin * length, inward);
+            if (distance > bestDistance + tieMargin * length)
             {
                 bestDistance = distance;
                 best = x;
@@ -132,11 +136,13 @@ private:
         return best;
     }
 
-    /// Signed distance to the plane of the nearest triangle of the cell (positive inside) and that triangle's inward normal.
-    scalar nearestTriangle(label celli, const point& x, vector& inward) const
+    /// Signed distance to the plane of the nearest triangle of the cell (positive inside) and that triangle's inward normal; of several within the margin the one whose
+    /// points come first.
+    scalar nearestTriangle(label celli, const point& x, scalar margin, vector& inward)
     {
         const pointField& p = mesh_.points();
         scalar nearest = VGREAT;
+        planes_.clear();
         for (const label facei : mesh_.cells()[celli])
         {
             const scalar sign = mesh_.faceOwner()[facei] == celli ? -1 : 1;
@@ -146,13 +152,16 @@ private:
                 const vector area = (p[t[1]] - p[t[0]]) ^ (p[t[2]] - p[t[0]]);
                 const vector normal = sign * area / (mag(area) + VSMALL);
                 const scalar distance = (x - p[t[0]]) & normal;
-                if (distance < nearest)
-                {
-                    nearest = distance;
-                    inward = normal;
-                }
+                nearest = min(nearest, distance);
+                std::array<label, 3> orders{order_[t[0]], order_[t[1]], order_[t[2]]};
+                std::sort(orders.begin(), orders.end());
+                planes_.push_back({orders, distance, normal});
             }
         }
+        const Plane* first = nullptr;
+        for (const Plane& plane : planes_)
+            if (plane.distance <= nearest + margin && (!first || plane.orders < first->orders)) first = &plane;
+        inward = first->normal;
         return nearest;
     }
 
@@ -243,6 +252,8 @@ private:
     const FaceTriangles faces_;
     const scalarField& volumes_;
     SimplexSplit split_;
+    struct Plane { std::array<label, 3> orders; scalar distance; vector normal; }; // of a triangle, orders of its points
+    std::vector<Plane> planes_;
     std::vector<label> cellPoints_;
     std::vector<Tetrahedron> trial_, best_;
     std::vector<std::pair<int, int>> rim_; // of the faces that hold the apex

@@ -322,6 +322,13 @@ TEST_CASE("3D: graded and skewed blocks")
     }
 }
 
+TEST_CASE("3D: prisms with hanging points have the same points inside on any number of ranks")
+{
+    checkCase("hanging", 3, 1e-12);
+    const FoamMesh whole("hanging", MPI_COMM_SELF);
+    CHECK(whole.adapter().mesh.nNodes > whole.foam().nPoints());
+}
+
 TEST_CASE("3D: polyhedra of snappyHexMesh")
 {
     checkCase("snapped", 3, 1e-4);

@@ -6,10 +6,12 @@
 #   boxed      2D, boxed3D 3D: a block of even cells, those in a box in its middle halved in all directions (refineMesh)
 #   skewed     3D: two graded, skewed blocks
 #   snapped    3D: polyhedra of snappyHexMesh around a rotated box, its edges blunt (folds, concave faces)
+#   hanging    3D: prisms with hanging points (hangingPrisms.py)
 #   bare       skewed without the files that tell the numbers of the undecomposed mesh
 #   cyclic, wedge, layers: meshes the adapter refuses
 set -euo pipefail
 folder=$1
+support=$(cd "$(dirname "$0")" && pwd)
 rm -rf "$folder"
 mkdir -p "$folder"
 cd "$folder"
@@ -160,6 +162,10 @@ EOF
 } > snapped.np1/system/snappyHexMeshDict
 run snapped.np1 snappyHexMesh -overwrite
 decompose snapped "2 1 1" "2 2 1"
+
+newCase hanging < <(evenBlock "1 1 1" patch)
+"$support/hangingPrisms.py" hanging.np1
+decompose hanging "2 1 1" "2 2 1"
 
 unitCube() {    # entries of patch x0, cells across, entries of the ends
     cat << EOF
