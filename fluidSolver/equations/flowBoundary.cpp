@@ -66,6 +66,7 @@ void FlowEquation::buildConstraints()
     }
     for (int i = 0; i < mesh_.nNodes; ++i)
         if (isFixed[i]) constraints_.push_back(wholeVelocity(i, dim));
+    for (auto& [node, normals] : slip) normals.findWalls();
     findWallRims(isFixed);
     std::vector<int> isEdge(mesh_.nNodes, 0), isBend(mesh_.nNodes, 0);
     for (const auto& [node, normals] : slip)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace flotsam
 {
@@ -14,6 +15,7 @@ using Vector = std::array<double, 3>;
 
 constexpr double sameNormal = 0.9; // cosine above which two faces belong to one smooth wall
 constexpr double flat = 1 - 1e-12; // cosine up to which they are one plane, from 1e-6 of an angle on
+constexpr double tie = 1e-9;        // difference of such cosines that may be round-off
 constexpr double leastSine = 0.1;  // of the angle between walls: nothing but round-off between the sides of a baffle
 
 double dot(const Vector& a, const Vector& b) { return a[0]*b[0] + a[1]*b[1] + a[2]*b[2]; }
@@ -33,15 +35,50 @@ void SlipNormals::addFace(const double* v, const double* place, int dim)
     std::copy(v, v + dim, face.area.begin());
     std::copy(place, place + dim, face.place.begin());
     for (Wall& wall : walls_)
-    {
-        const double cosine = dot(wall.area, face.area)/(length(wall.area)*length(face.area));
-        if (cosine <= sameNormal) continue;
-        isBent_ = isBent_ || cosine < flat;
-        add(wall.area, 1, face.area);
-        add(wall.place, 1, face.place);
-        return;
-    }
+        if (cosine(wall, face) >= flat) return join(wall, face);
     walls_.push_back(face);
+}
+
+double SlipNormals::cosine(const Wall& wall, const Wall& other) { return dot(wall.area, other.area)/(length(wall.area)*length(other.area)); }
+
+void SlipNormals::join(Wall& wall, const Wall& other)
+{
+    add(wall.area, 1, other.area);
+    add(wall.place, 1, other.place);
+}
+
+std::array<long, 3> SlipNormals::Wall::direction() const
+{
+    constexpr double round = 1e6;
+    std::array<long, 3> result;
+    for (int d = 0; d < 3; ++d) result[d] = std::lround(round*area[d]/length(area));
+    return result;
+}
+
+/// Of several whose angle is the same the one that comes first by their directions.
+SlipNormals::Pair SlipNormals::nearestPair() const
+{
+    const auto directions = [this](const Pair& p) { return std::minmax({walls_[p.first].direction(), walls_[p.second].direction()}); };
+    Pair best{0, 0, -1};
+    for (std::size_t k = 1; k < walls_.size(); ++k)
+        for (std::size_t l = 0; l < k; ++l)
+        {
+            const Pair pair{l, k, cosine(walls_[l], walls_[k])};
+            const bool isTied = std::abs(pair.cosine - best.cosine) < tie && best.second > 0;
+            if (isTied ? directions(pair) < directions(best) : pair.cosine > best.cosine) best = pair;
+        }
+    return best;
+}
+
+void SlipNormals::findWalls()
+{
+    for (Pair pair = nearestPair(); pair.cosine > sameNormal; pair = nearestPair())
+    {
+        isBent_ = isBent_ || pair.cosine < flat;
+        join(walls_[pair.first], walls_[pair.second]);
+        walls_.erase(walls_.begin() + std::ptrdiff_t(pair.second));
+    }
+    std::sort(walls_.begin(), walls_.end(), [](const Wall& l, const Wall& r) { return l.direction() < r.direction(); });
 }
 
 /// The fluid fills more than 180 degrees between two walls if each lies on the outer side of the other.

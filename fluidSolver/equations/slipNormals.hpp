@@ -19,6 +19,10 @@ public:
     /// v: normal of a face at the node, out of the fluid, as long as the face is to weigh; place: the face's centre seen from the node. dim values each.
     void addFace(const double* v, const double* place, int dim);
 
+    /// After all faces, before anything is asked. Joins those of nearly the same direction, the nearest first: in whatever order they were added, which is another on other
+    /// processes.
+    void findWalls();
+
     /// Whether walls meet in a re-entrant edge here.
     bool hasEdge() const;
 
@@ -35,9 +39,19 @@ private:
     struct Wall
     {
         std::array<double, 3> area{}, place{};  // sums over its faces
+        std::array<long, 3> direction() const;  // of its normal, in round numbers: an order
     };
 
+    struct Pair
+    {
+        std::size_t first, second;
+        double cosine;  // of the angle between them
+    };
+
+    static double cosine(const Wall& wall, const Wall& other);
     static bool isOutside(const Wall& wall, const Wall& other);
+    void join(Wall& wall, const Wall& other);
+    Pair nearestPair() const;
     bool isAtEdge(const Wall& wall) const;
 
     std::vector<Wall> walls_;

@@ -5,7 +5,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 using namespace flotsam;
 
@@ -22,6 +24,7 @@ SlipNormals normalsOf(const std::vector<Face>& faces, int dim)
 {
     SlipNormals normals;
     for (const Face& face : faces) normals.addFace(face.n, face.p, dim);
+    normals.findWalls();
     return normals;
 }
 
@@ -54,6 +57,32 @@ TEST_CASE("the rim of a box holds nothing, its foot only what the floor holds")
     REQUIRE(atEdge.size() == 2);
     CHECK(atEdge[0] == std::array<double, 3>{-1, 0, 0});
     CHECK(atEdge[1] == std::array<double, 3>{0, -1, 0});
+}
+
+TEST_CASE("the walls at a node do not depend on the order of their faces")
+{
+    // a bed, a bank of 60 degrees and the rounded toe between them, in steps of 20 degrees: each is near enough to the next to be one wall with it
+    std::vector<Face> faces;
+    for (int k = 0; k < 4; ++k)
+    {
+        const double angle = 0.35*k;
+        faces.push_back({{std::sin(angle), 0.1*k, -std::cos(angle)}, {std::cos(angle), 0, std::sin(angle)}});
+        faces.push_back({{std::sin(angle), -0.1*k, -std::cos(angle)}, {std::cos(angle), 0.1, std::sin(angle)}});
+    }
+    std::vector<int> order(faces.size());
+    std::iota(order.begin(), order.end(), 0);
+    const NodeConstraint expected = normalsOf(faces, 3).constraint(0, 3);
+    CHECK(expected.nDirections > 1);
+    do
+    {
+        std::vector<Face> turned;
+        for (const int k : order) turned.push_back(faces[k]);
+        const NodeConstraint found = normalsOf(turned, 3).constraint(0, 3);
+        REQUIRE(found.nDirections == expected.nDirections);
+        for (int k = 0; k < found.nDirections; ++k)
+            for (int d = 0; d < 3; ++d) REQUIRE(found.direction[k][d] == within(expected.direction[k][d], 1e-12));
+    }
+    while (std::next_permutation(order.begin(), order.end()));
 }
 
 TEST_CASE("faces of one smooth wall have one normal, its sides too")
