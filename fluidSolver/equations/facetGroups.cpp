@@ -9,10 +9,16 @@ namespace flotsam
 namespace
 {
 
+/// Angle up to which facets lie on one face: where parts of a union divide the face, each piece has its normal with its own round-off. Terms of means over a group must not
+/// depend on that.
+constexpr double sameNormal = 1e-6;
+
 template<int D>
 bool looksAlike(const FacetGroup<D>& group, const CutFacet& facet)
 {
-    return group.solid == facet.solid && std::equal(facet.normal, facet.normal + D, group.normal);
+    double square = 0;
+    for (int d = 0; d < D; ++d) square += (facet.normal[d] - group.normal[d])*(facet.normal[d] - group.normal[d]);
+    return group.solid == facet.solid && square < sameNormal*sameNormal;
 }
 
 template<int D>
