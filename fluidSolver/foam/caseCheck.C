@@ -4,7 +4,9 @@
 #include "equations/inflowBalance.hpp"
 #include "foam/boundaryReader.H"
 #include "foam/dictionaryChecks.H"
+#include "foam/patchNodes.H"
 #include "foam/startReport.H"
+#include "geometry/shape.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -121,6 +123,32 @@ bool isWallToFluidAlone(const BoundaryPatch& patch, const SimplexMesh& mesh)
     return (patch.isWall() || patch.isNoSlipWall) && !patch.stopsBodies && patch.meshPatch >= 0 && mesh.patches[patch.meshPatch].type == "patch";
 }
 
+/// Area and box of a patch: faces that are in another patch than meant are seen there. Collective.
+std::string extent(const BoundaryPatch& patch, const SimplexMesh& mesh, const Halo& halo)
+{
+    const double area = halo.sum(makePatchNodes(mesh, halo, mesh.patches[patch.meshPatch]).area());
+    if (area == 0) return "no faces";
+    Vec3 low = Vec3::Constant(-1e300), high = low;
+    for (const int node : patch.nodes)
+    {
+        const auto x = mesh.spacePoint(node);
+        for (int d = 0; d < 3; ++d)
+        {
+            low[d] = std::max(low[d], -x[d]);
+            high[d] = std::max(high[d], x[d]);
+        }
+    }
+    for (int d = 0; d < 3; ++d)
+    {
+        low[d] = -halo.max(low[d]);
+        high[d] = halo.max(high[d]);
+    }
+    const double least = 1e-9*(high - low).norm();     // shorter is round-off of a coordinate that is 0
+    const auto round = [least](double x) { return std::abs(x) < least ? 0 : x; };
+    const auto point = [&](const Vec3& x) { return text('(', round(x[0]), ' ', round(x[1]), ' ', round(x[2]), ')'); };
+    return text(area, " m^2 from ", point(low), " to ", point(high));
+}
+
 } // namespace
 
 void checkGravity(const FluidProperties& fluid, const SimplexMesh& mesh)
@@ -161,7 +189,7 @@ void printCaseCheck(const CaseControls& controls, const MeshAdapter& adapter, co
     const std::string changed = changedNumerics(controls.numerics);
     line("numerics", text(changed.empty() ? "all entries of `flotsam` have their defaults" : "defaults, but " + changed, "; solvers, PIMPLE (pRefValue excepted) and fvSchemes are not used"));
     if (const std::string idle = idleWallLaw(controls.numerics, boundary); !idle.empty()) line("warning", idle);
-    for (const auto& patch : boundary) line("patch", describe(patch, controls.fluid.isTwoPhase));
+    for (const auto& patch : boundary) line("patch", text(describe(patch, controls.fluid.isTwoPhase), "; ", extent(patch, mesh, halo)));
     for (const auto& patch : boundary)
         if (isOpenWall(patch, mesh)) line("warning", text("patch ", patch.name, " is of type wall, but its U lets fluid through. Give it noSlip or slip; in 2D the front and back are of type empty"));
     for (const auto& patch : boundary)

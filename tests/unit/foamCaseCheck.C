@@ -139,6 +139,8 @@ TEST_CASE("report of a channel with and without bodies")
     CHECK(empty.find("2D triangles, 231 nodes, 400 elements") != std::string::npos);
     CHECK(empty.find("DEM engine not opened") != std::string::npos);
     CHECK(empty.find("floor: velocity no-slip") != std::string::npos);
+    CHECK(empty.find("; 0.2 m^2 from (0 0 0.05) to (2 0 0.05)\n") != std::string::npos);     // floor
+    CHECK(empty.find("; 0.1 m^2 from (2 0 0.05) to (2 1 0.05)\n") != std::string::npos);     // outlet
     CHECK(empty.find("memory") != std::string::npos);
     CHECK(empty.find("warning") == std::string::npos);
     const auto g = controls.fluid.gravity;
