@@ -21,8 +21,8 @@ class ShutPockets;
 struct FlowStepData
 {
     TimeScheme time;
-    double gravity = 0;                         ///< its size, 0 in one fluid [m/s^2]; bounds penaltyRate()
-    double speed = 0;                           ///< where that is 0: largest of the fluid at t^n [m/s]; bounds penaltyRate() then
+    double gravity = 0;                         ///< its size [m/s^2]; bounds penaltyRate()
+    double speed = 0;                           ///< largest of the fluid at t^n, without gravity [m/s]; bounds penaltyRate() then
     const FlowState* state = nullptr;           ///< t^n, t^(n-1); alpha already at t^(n+1)
     const Cover* cover = nullptr;               ///< null: no solids
     const GasRegion* gas = nullptr;             ///< null: no gas is left out

@@ -156,7 +156,7 @@ void Fluid::assemble()
     if (cover_) setPocketPressures();
     FlowStepData step;
     step.time = time_;
-    step.gravity = fluid_.isTwoPhase ? std::hypot(fluid_.gravity[0], fluid_.gravity[1], fluid_.gravity[2]) : 0;   // in one fluid it moves nothing
+    step.gravity = std::hypot(fluid_.gravity[0], fluid_.gravity[1], fluid_.gravity[2]);
     if (step.gravity == 0) step.speed = largestSpeed(mesh_, halo_, state_.u);
     step.state = &state_;
     step.cover = cover;

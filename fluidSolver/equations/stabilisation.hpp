@@ -9,7 +9,7 @@ namespace flotsam
 
 /// 1/dt in terms that resist velocities themselves, not their changes [1/s]: grad-div (tau_cont) and the normal velocity on solids. Each step takes its part of what P1 cannot
 /// do without divergence or along a cut wall; with 1/dt itself all of it were taken as dt goes to zero, and bodies would answer the later the smaller the steps. It counts up to
-/// `most` times sqrt(gravity/h), the rate at which waves as long as an element swing; without gravity [m/s^2], or in one fluid, where it moves nothing, to a third of `most` times speed/h, at which the fastest fluid [m/s]
+/// `most` times sqrt(gravity/h), the rate at which waves as long as an element swing; without gravity [m/s^2] to a third of `most` times speed/h, at which the fastest fluid [m/s]
 /// passes an element (as in steps of a Courant number of 0.5), and while all is at rest without bound (docs/numerics, 2.14).
 template<class Real>
 inline Real penaltyRate(double dt, double gravity, double speed, double most, const Real& h)

@@ -39,7 +39,7 @@ const std::vector<ControlEntry>& controlsTable()
         {"surfaceTimeOrder", &N::surfaceTimeOrder, {1, 2}, "order in time of the inertia where the surface passes"},
         {"tauFactor", &N::tauFactor, {0, 10, true}, "tau of SUPG and PSPG over Tezduyar's where inertia counts"},
         {"tauContFactor", &N::tauContFactor, {0, 100}, "multiplies the continuity stabilisation"},
-        {"penaltyRate", &N::penaltyRate, {0, 1e9}, "largest 1/dt that grad-div and the normal penalty on solids count, over sqrt(g/element length); in one fluid and without gravity a third of it counts, over the largest speed/element length"},
+        {"penaltyRate", &N::penaltyRate, {0, 1e9}, "largest 1/dt that grad-div and the normal penalty on solids count, over sqrt(g/element length); without gravity a third of it counts, over the largest speed/element length"},
         {"tauContBulk", &N::tauContBulk, {0, 1}, "share of the time step in tau_cont in elements of one density"},
         {"tauContWithTimeStep", &N::tauContWithTimeStep, anyValue, "on: time step within the stabilisation time; off: steady form"},
         {"viscousResidual", &N::viscousResidual, anyValue, "on: viscous force in the residual of SUPG and PSPG; off: without"},
