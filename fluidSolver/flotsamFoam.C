@@ -300,7 +300,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         step.fluid().state().time = runTime.value(); // OpenFOAM's clock, to the last digit
 
         output.record(step, result, limit, rates*used);
-        if (!wallForces.empty()) forceFiles.write(runTime.value(), used, step.fluid().patchForces(), contactForces(wallForces, bodies, step.coupling()));
+        if (!wallForces.empty()) forceFiles.write(runTime.value(), used, step.fluid().patchForces(), contactForces(dem.wallGroups, step.coupling()));
         if (!time.adjustTimeStep) output.watchCourant(step, courantRates(step, 0)*used, used);
         const double endTime = runTime.endTime().value(); // a signal changes it
         if (write(runTime, halo, step, fields, output, timers, dt)) isComplete = runTime.value() > endTime - 0.5*used;

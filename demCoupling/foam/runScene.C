@@ -72,12 +72,12 @@ DemSetup makeDemSetup(const BodiesInput& input, const std::vector<WallForceGroup
     return setup;
 }
 
-std::vector<ContactForce> contactForces(const std::vector<WallForceGroup>& groups, const BodiesInput& input, const BodyCoupling* bodies)
+std::vector<ContactForce> contactForces(const std::vector<std::vector<int>>& groups, const BodyCoupling* bodies)
 {
     std::vector<ContactForce> result(groups.size());
     for (std::size_t g = 0; g < groups.size() && bodies; ++g)
     {
-        for (int w : wallsOf(groups[g], input))
+        for (const int w : groups[g])
         {
             result[g].force += bodies->wallLoads()[w].force;
             result[g].moment += bodies->wallLoads()[w].moment;

@@ -32,9 +32,7 @@ def isHeld(h):
 
 def accountedLogs(h):
     """Number of logs per record that are inside the channel or left it through the outlet."""
-    x = driftwood.positions(h)
-    inside = (x[..., 0] > -setup["upstream"]) & (np.abs(x[..., 1]) < 0.5 * setup["width"]) & (x[..., 2] > 0) & (x[..., 2] < setup["height"])
-    return (inside | (x[..., 0] > setup["downstream"])).sum(0)
+    return driftwood.accounted(driftwood.positions(h), setup)
 
 
 def passedLogs(h):

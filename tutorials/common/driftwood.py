@@ -74,6 +74,24 @@ def inSpace(body, local):
     return body.position[:, None] + turned(body.orientation[:, None, :], local)
 
 
+def accounted(x, setup):
+    """Number of bodies per record that are to come, inside the channel of these parameters, or left it through the outlet. x: as positions()."""
+    inside = (x[..., 0] > -setup["upstream"]) & (np.abs(x[..., 1]) < 0.5 * setup["width"]) & (x[..., 2] > 0) & (x[..., 2] < setup["height"])
+    return (inside | (x[..., 0] > setup["downstream"])).sum(0)
+
+
+def cameIn(h, names):
+    """Number of these bodies over time that have come in."""
+    return sum(h["bodies/" + name].awaited < 0.5 for name in names)
+
+
+def row(diameter, length, axis):
+    """(centres in its frame, radii) of a row of spheres along a log, finer than those by which logs touch."""
+    radius, half = 0.5 * diameter, 0.5 * length
+    along = np.linspace(-half + radius, half - radius, int(np.ceil((2 * half - 2 * radius) / (0.16 * radius))) + 1)
+    return np.outer(along, np.eye(3)[axis]), np.full(len(along), radius)
+
+
 def deepestOverlap(h, spheres):
     """Deepest overlap of two bodies in all records [m]. `spheres`: {body: (centres in its frame n x 3, radii n)} that make up its surface."""
     names = list(spheres)

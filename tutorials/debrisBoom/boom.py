@@ -54,7 +54,7 @@ def _ofLogs(h, values):
 
 def cameIn(h):
     """Number of logs over time that have come in."""
-    return sum(h["bodies/" + name].awaited < 0.5 for name in h.bodies if name.startswith("log"))
+    return driftwood.cameIn(h, [name for name in h.bodies if name.startswith("log")])
 
 
 def isHeld(h):
@@ -76,21 +76,15 @@ def passed(h):
 
 def accounted(h):
     """Number of logs per record that are to come, inside the channel, or left it through the outlet."""
-    x = _ofLogs(h, driftwood.positions(h))
-    inside = (x[..., 0] > -setup["upstream"]) & (np.abs(x[..., 1]) < 0.5 * setup["width"]) & (x[..., 2] > 0) & (x[..., 2] < setup["height"])
-    return (inside | (x[..., 0] > setup["downstream"])).sum(0)
+    return driftwood.accounted(_ofLogs(h, driftwood.positions(h)), setup)
 
 
 def surfaces(h):
     """{body: (centres in its frame, radii)}: a row of spheres, finer than those by which they touch; logs have their axes along x, floats along y. Skirts are left out."""
-    above = np.array([0, 0, axisAbove(h)])
-    return {name: _row(1, "float", above) if name.startswith("float") else _row(0, "log", 0 * above) for name in h.bodies}
-
-
-def _row(axis, kind, above):
-    radius, half = 0.5 * setup[kind + "Diameter"], 0.5 * setup[kind + "Length"]
-    along = np.linspace(-half + radius, half - radius, int(np.ceil((2 * half - 2 * radius) / (0.16 * radius))) + 1)
-    return np.outer(along, np.eye(3)[axis]) + above, np.full(len(along), radius)
+    log = driftwood.row(setup["logDiameter"], setup["logLength"], 0)
+    centres, radii = driftwood.row(setup["floatDiameter"], setup["floatLength"], 1)
+    member = centres + np.array([0, 0, axisAbove(h)]), radii
+    return {name: member if name.startswith("float") else log for name in h.bodies}
 
 
 def repeatedSteps(case):

@@ -26,7 +26,7 @@ def logVolume():
 
 def cameIn(h):
     """Number of logs over time that have come in."""
-    return sum(h["bodies/" + name].awaited < 0.5 for name in h.bodies)
+    return driftwood.cameIn(h, h.bodies)
 
 
 def isHeld(h):
@@ -43,17 +43,13 @@ def passed(h):
 
 def accounted(h):
     """Number of logs per record that are to come, inside the channel, or left it through the outlet."""
-    x = driftwood.positions(h)
-    inside = (x[..., 0] > -setup["upstream"]) & (np.abs(x[..., 1]) < 0.5 * setup["width"]) & (x[..., 2] > 0) & (x[..., 2] < setup["height"])
-    return (inside | (x[..., 0] > setup["downstream"])).sum(0)
+    return driftwood.accounted(driftwood.positions(h), setup)
 
 
 def surfaces(h):
     """{log: (centres in its frame, radii)}: a row of spheres, finer than those by which the logs touch."""
-    radius, half = 0.5 * setup["logDiameter"], 0.5 * setup["logLength"]
-    along = np.linspace(-half + radius, half - radius, int(np.ceil((2 * half - 2 * radius) / (0.16 * radius))) + 1)
-    local = np.stack([along, 0 * along, 0 * along], axis=1)
-    return {name: (local, np.full(len(along), radius)) for name in h.bodies}
+    row = driftwood.row(setup["logDiameter"], setup["logLength"], 0)
+    return {name: row for name in h.bodies}
 
 
 def rackOverlap(h):

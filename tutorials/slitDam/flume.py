@@ -36,9 +36,7 @@ def captureRatio(h):
 
 def accountedBars(h):
     """Number of bars per record that are inside the flume or left it over the free overfall (passedBars counts these)."""
-    x = driftwood.positions(h)
-    inside = ((x[..., 0] > -setup["upstream"]) & (np.abs(x[..., 1]) < 0.5 * setup["width"]) & (x[..., 2] > 0) & (x[..., 2] < setup["height"]))
-    return (inside | (x[..., 0] > setup["downstream"])).sum(0)
+    return driftwood.accounted(driftwood.positions(h), setup)
 
 
 def passedBars(h):
