@@ -15,6 +15,7 @@ flotsam_test(foamWriteTimes unit SOURCES unit/foamWriteTimes.C LIBRARIES flotsam
 flotsam_test(foamBodies unit SOURCES unit/foamBodies.C LIBRARIES flotsam_foam_test flotsam_dem_foam RANKS 1 2)
 flotsam_test(foamContactSpheres unit SOURCES unit/foamContactSpheres.C LIBRARIES flotsam_foam_test flotsam_dem_foam RANKS 1 2)
 flotsam_test(foamPlacement unit SOURCES unit/foamPlacement.C LIBRARIES flotsam_foam_test flotsam_dem_foam RANKS 1 2)
+flotsam_test(foamVariation unit SOURCES unit/foamVariation.C LIBRARIES flotsam_foam_test flotsam_dem_foam RANKS 1 2)
 flotsam_test(foamBodiesMessages unit SOURCES unit/foamBodiesMessages.C LIBRARIES flotsam_foam_test flotsam_dem_foam RANKS 1 2)
 flotsam_test(foamRestraints unit SOURCES unit/foamRestraints.C LIBRARIES flotsam_foam_test flotsam_dem_foam RANKS 1 2)
 flotsam_test(foamCaseCheck unit SOURCES unit/foamCaseCheck.C LIBRARIES flotsam_foam_test)

@@ -156,8 +156,7 @@ void addStructureWalls(BodiesInput& input)
 
 void addMovers(const Foam::dictionary& dict, const SceneFrame& frame, const std::vector<BodyGroup>& groups, BodiesInput& input)
 {
-    double smallest = 1e300;
-    for (const BodyGroup& g : groups) smallest = std::min(smallest, g.sphereRadius);
+    const double smallest = smallestSphere(groups);
     for (StructureDefinition& s : input.structures)
     {
         if (s.wall < 0 || !s.motion) continue;
@@ -318,7 +317,7 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
     for (BodyGroup& group : groups)
         for (BodyDefinition& body : group.members)
         {
-            input.bodyGroups.push_back(group.prototype.name);
+            input.bodyGroups.push_back(group.name);
             input.bodies.push_back(std::move(body));
         }
     checkMembersDiffer(dict, input.bodies, "bodies", [](const BodyDefinition& b) { return b.name; });

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/foam/bodyGroup.H"
+#include "demCoupling/foam/bodyVariation.H"
 #include "demCoupling/foam/contactReader.H"
 #include "foam/dictionaryChecks.H"
 #include "geometry/primitives.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace flotsam
 {
@@ -14,10 +16,12 @@ namespace
 {
 
 const std::vector<std::string> bodyKeywords{"shape", "density", "mass", "material", "spheres", "position", "orientation", "velocity",
-    "angularVelocity", "releaseTime", "beforeRelease", "array", "poses", "random"};
+    "angularVelocity", "releaseTime", "beforeRelease", "array", "poses", "random", "variation"};
 
-double readMass(const Foam::dictionary& dict, double volume)
+/// density [kg/m3]: a member's own, 0: the group's.
+double readMass(const Foam::dictionary& dict, double volume, double density)
 {
+    if (density > 0) return density*volume;
     if (dict.found("mass") == dict.found("density"))
         failIn(dict, "Give either 'density' [kg/m^3] or 'mass' [kg] of the body.");
     return dict.found("mass") ? readNumber(dict, "mass", positive) : readNumber(dict, "density", positive)*volume;
@@ -30,11 +34,16 @@ bool readEntersAtRelease(const Foam::dictionary& dict)
     return before == "absent";
 }
 
-void readGroupSpheres(const Foam::dictionary& dict, BodyGroup& group)
+/// thinnest: smallest extent [m] of the shape that the dictionary gives them for; a thinner member has finer ones.
+void readKindSpheres(const Foam::dictionary& dict, double thinnest, BodyKind& kind)
 {
-    const double thinnest = group.prototype.thinnest;
-    group.sphereRadius = 0.25*thinnest;
-    if (dict.found("spheres")) readSpheres(subGroup(dict, "spheres"), thinnest, group.sphereRadius, group.sphereSpacing);
+    kind.sphereRadius = 0.25*kind.prototype.thinnest;
+    if (!dict.found("spheres")) return;
+    double radius = 0.25*thinnest, spacing = 0;
+    readSpheres(subGroup(dict, "spheres"), thinnest, radius, spacing);
+    const double share = kind.prototype.thinnest/thinnest;
+    kind.sphereRadius = share*radius;
+    kind.sphereSpacing = share*spacing;
 }
 
 /// Of the box around the body [m2].
@@ -46,22 +55,59 @@ double boxArea(const BodyDefinition& body)
 }
 
 /// Such that the smallest spheres of any body do not sink in between; more than 16 times as many as without them only up to a number that costs little.
-double chooseSpacing(const BodyGroup& group, double smallest)
+double chooseSpacing(const BodyKind& kind, double smallest)
 {
     constexpr double enough = 4000;
-    const double R = group.sphereRadius;
-    return closedSpacing(R, smallest, group.prototype.isPlanar ? 0 : std::min(0.5*R, std::sqrt(boxArea(group.prototype)/enough))); // around a section there are few
+    const double R = kind.sphereRadius;
+    return closedSpacing(R, smallest, kind.prototype.isPlanar ? 0 : std::min(0.5*R, std::sqrt(boxArea(kind.prototype)/enough))); // around a section there are few
 }
 
 /// Before they are made: a radius in other units than m would fill the memory.
-void checkSphereCount(const BodyGroup& group, double spacing)
+void checkSphereCount(const Foam::dictionary& dict, const BodyKind& kind, double spacing)
 {
     constexpr double most = 1e6;
-    const BodyDefinition& body = group.prototype;
+    const BodyDefinition& body = kind.prototype;
     const double count = boxArea(body)/(spacing*spacing);
     if (body.isPlanar || count <= most) return;
-    failIn(*group.dict, text("Body ", body.name, " would have some ", count, " contact spheres of radius ", group.sphereRadius, " m, ", spacing, " m apart; allowed: ", most,
+    failIn(dict, text("Body ", body.name, " would have some ", count, " contact spheres of radius ", kind.sphereRadius, " m, ", spacing, " m apart; allowed: ", most,
         ".\n    Give larger ones, spheres { radius; spacing; } [m]; its smallest extent is ", body.thinnest, " m."));
+}
+
+void makeKindSpheres(const Foam::dictionary& dict, BodyKind& kind, double smallest)
+{
+    constexpr double cornerShare = 1.0/16; // radius of corners over the thickness (docs/contact.md)
+    const double spacing = kind.sphereSpacing > 0 ? kind.sphereSpacing : chooseSpacing(kind, smallest);
+    const double ofRows = kind.sphereSpacing > 0 ? kind.sphereSpacing : 0.5*kind.sphereRadius;
+    checkSphereCount(dict, kind, spacing);
+    BodyDefinition& body = kind.prototype;
+    const Vec3 across = body.pose.orientation.conjugate()*Vec3::Unit(body.planeAxis);
+    body.spheres = body.isPlanar ? sectionSpheres(*body.shape, Vec3::Zero(), across, kind.sphereRadius, spacing, ofRows)
+                                 : surfaceSpheres(*body.shape, kind.sphereRadius, spacing, ofRows);
+    const double ofCorners = cornerShare*body.thinnest;
+    if (ofCorners < (1 - 1e-9)*body.spheres.front().radius)
+        body.corners = body.isPlanar ? sectionCorners(*body.shape, Vec3::Zero(), across, ofCorners) : cornerSpheres(*body.shape, ofCorners);
+}
+
+/// density [kg/m3]: 0: as the dictionary says; thinnest: of the group's shape [m].
+BodyKind readKind(const std::string& name, const Foam::dictionary& dict, const Foam::dictionary& shape, double density, const SceneFrame& frame, std::optional<double> thinnest = {})
+{
+    BodyKind kind;
+    const PrincipalShape principal = toPrincipalFrame(readShape(shape, frame.stlFolder));
+    BodyDefinition& body = kind.prototype;
+    body.name = name;
+    body.shape = principal.shape;
+    body.volume = principal.volume;
+    body.mass = readMass(dict, principal.volume, density);
+    body.principalInertia = principal.inertia*(body.mass/principal.volume);
+    body.pose = principal.inUserFrame;
+    body.material = readMaterial(dict, "material", frame.materials);
+    body.isPlanar = frame.isPlanar;
+    body.planeAxis = frame.planeAxis;
+    body.thinnest = touchingThickness(body.shape, frame);
+    body.entersAtRelease = readEntersAtRelease(dict);
+    kind.sampled = sampleShape(body.shape, body.thinnest);
+    readKindSpheres(dict, thinnest.value_or(body.thinnest), kind);
+    return kind;
 }
 
 } // namespace
@@ -125,22 +171,17 @@ std::shared_ptr<const SampledShape> sampleShape(std::shared_ptr<const Shape> sha
 
 void makeSpheres(std::vector<BodyGroup>& groups)
 {
-    constexpr double cornerShare = 1.0/16; // radius of corners over the thickness (docs/contact.md)
+    const double smallest = smallestSphere(groups);
+    for (BodyGroup& group : groups)
+        for (BodyKind& kind : group.kinds) makeKindSpheres(*group.dict, kind, smallest);
+}
+
+double smallestSphere(const std::vector<BodyGroup>& groups)
+{
     double smallest = 1e300;
-    for (const BodyGroup& g : groups) smallest = std::min(smallest, g.sphereRadius);
-    for (BodyGroup& g : groups)
-    {
-        const double spacing = g.sphereSpacing > 0 ? g.sphereSpacing : chooseSpacing(g, smallest);
-        const double ofRows = g.sphereSpacing > 0 ? g.sphereSpacing : 0.5*g.sphereRadius;
-        checkSphereCount(g, spacing);
-        BodyDefinition& body = g.prototype;
-        const Vec3 across = body.pose.orientation.conjugate()*Vec3::Unit(body.planeAxis);
-        body.spheres = body.isPlanar ? sectionSpheres(*body.shape, Vec3::Zero(), across, g.sphereRadius, spacing, ofRows)
-                                     : surfaceSpheres(*body.shape, g.sphereRadius, spacing, ofRows);
-        const double ofCorners = cornerShare*body.thinnest;
-        if (ofCorners < (1 - 1e-9)*body.spheres.front().radius)
-            body.corners = body.isPlanar ? sectionCorners(*body.shape, Vec3::Zero(), across, ofCorners) : cornerSpheres(*body.shape, ofCorners);
-    }
+    for (const BodyGroup& group : groups)
+        for (const BodyKind& kind : group.kinds) smallest = std::min(smallest, kind.sphereRadius);
+    return smallest;
 }
 
 BodyGroup readBodyGroup(const std::string& name, const Foam::dictionary& dict, const SceneFrame& frame)
@@ -149,22 +190,17 @@ BodyGroup readBodyGroup(const std::string& name, const Foam::dictionary& dict, c
     if (dict.found("array") + dict.found("poses") + dict.found("random") > 1)
         failIn(dict, "Give only one of 'array', 'poses' and 'random'.");
     BodyGroup group;
+    group.name = name;
     group.dict = &dict;
-    const PrincipalShape principal = toPrincipalFrame(readShape(subGroup(dict, "shape"), frame.stlFolder));
-    BodyDefinition& body = group.prototype;
-    body.name = name;
-    body.shape = principal.shape;
-    body.volume = principal.volume;
-    body.mass = readMass(dict, principal.volume);
-    body.principalInertia = principal.inertia*(body.mass/principal.volume);
-    body.pose = principal.inUserFrame;
-    body.material = readMaterial(dict, "material", frame.materials);
-    body.isPlanar = frame.isPlanar;
-    body.planeAxis = frame.planeAxis;
-    body.thinnest = touchingThickness(body.shape, frame);
-    body.entersAtRelease = readEntersAtRelease(dict);
-    group.sampled = sampleShape(body.shape, body.thinnest);
-    readGroupSpheres(dict, group);
+    const Foam::dictionary& shape = subGroup(dict, "shape");
+    if (!dict.found("variation"))
+    {
+        group.kinds.push_back(readKind(name, dict, shape, 0, frame));
+        return group;
+    }
+    const double thinnest = touchingThickness(readShape(shape, frame.stlFolder), frame);
+    for (const MemberVariation& member : drawVariations(dict, memberCount(dict)))
+        group.kinds.push_back(readKind(name, dict, member.shape, member.density, frame, thinnest));
     return group;
 }
 

@@ -19,18 +19,18 @@ namespace
 constexpr double largestCount = 1e6;    // members of a group: a slip of the pen must not take all of the memory
 
 /// A pose of the user's frame -> of the body frame; 2D: moved to the mid-plane.
-Pose bodyPose(const Pose& user, const BodyGroup& group, const SceneFrame& frame)
+Pose bodyPose(const Pose& user, const BodyKind& kind, const SceneFrame& frame)
 {
-    Pose pose = compose(user, group.prototype.pose); // the prototype's pose is that of the body frame in the user's
+    Pose pose = compose(user, kind.prototype.pose); // the prototype's pose is that of the body frame in the user's
     if (!frame.isPlanar) return pose;
-    const auto box = ShapeAtPose{"", group.sampled, pose}.spaceBounds();
+    const auto box = ShapeAtPose{"", kind.sampled, pose}.spaceBounds();
     pose.position[frame.planeAxis] += frame.midPlane - 0.5*(box[0] + box[1])[frame.planeAxis];
     return pose;
 }
 
-Vec3 sizeOf(const BodyGroup& group, const Pose& pose)
+Vec3 sizeOf(const BodyKind& kind, const Pose& pose)
 {
-    const auto box = ShapeAtPose{"", group.sampled, pose}.spaceBounds();
+    const auto box = ShapeAtPose{"", kind.sampled, pose}.spaceBounds();
     return box[1] - box[0];
 }
 
@@ -43,56 +43,63 @@ std::string unitsAdvice(const Vec3& size, const Vec3& meshSize)
 }
 
 /// A 2D mesh computes per thickness: a body whose extent or section differs would have another mass than the water it displaces.
-void checkPlanar(const BodyGroup& group, const BodyDefinition& body, const SceneFrame& frame)
+void checkPlanar(const Foam::dictionary& dict, const BodyKind& kind, const BodyDefinition& body, const SceneFrame& frame)
 {
     if (!frame.isPlanar) return;
-    const auto box = ShapeAtPose{"", group.sampled, body.pose}.spaceBounds();
+    const auto box = ShapeAtPose{"", kind.sampled, body.pose}.spaceBounds();
     const double extent = (box[1] - box[0])[frame.planeAxis];
     if (std::abs(extent - frame.thickness) > 1e-6*frame.thickness)
-        failIn(*group.dict, text("2D mesh: body ", body.name, " must reach through the mesh from front to back. Its extent along ", "xyz"[frame.planeAxis],
+        failIn(dict, text("2D mesh: body ", body.name, " must reach through the mesh from front to back. Its extent along ", "xyz"[frame.planeAxis],
             " is ", extent, " m, the mesh's ", frame.thickness, " m.\n    Use a box or cylinder of that length along ", "xyz"[frame.planeAxis], extent > 100*frame.thickness ? ". Lengths are in m: an STL file in mm needs 'scale 0.001'." : "."));
     Solid solid;
     solid.shape = body.shape;
     solid.pose = body.pose;
     if (!isSameAcross(solid, frame)) // a ball as thick as the mesh
-        failIn(*group.dict, text("2D mesh: body ", body.name, " reaches through the mesh from front to back, but its section changes on the way: the flow would see another volume than that of its mass.\n    Use a box or cylinder along ",
+        failIn(dict, text("2D mesh: body ", body.name, " reaches through the mesh from front to back, but its section changes on the way: the flow would see another volume than that of its mass.\n    Use a box or cylinder along ",
             "xyz"[frame.planeAxis], ", or a union of these."));
 }
 
 /// Of a body that is not there at the start with what is fixed alone: whether its place is free is seen when it comes in.
-std::optional<Conflict> conflictOf(const BodyGroup& group, const BodyDefinition& body, const Obstacles& obstacles, double minGap)
+std::optional<Conflict> conflictOf(const BodyKind& kind, const BodyDefinition& body, const Obstacles& obstacles, double minGap)
 {
-    return findConflict({body.name, group.sampled, body.pose}, obstacles, minGap, !body.entersAtRelease);
+    return findConflict({body.name, kind.sampled, body.pose}, obstacles, minGap, !body.entersAtRelease);
 }
 
-void join(Obstacles& obstacles, const BodyGroup& group, const BodyDefinition& body)
+void join(Obstacles& obstacles, const BodyKind& kind, const BodyDefinition& body)
 {
-    if (!body.entersAtRelease) obstacles.bodies.push_back({"body " + body.name, group.sampled, body.pose});
+    if (!body.entersAtRelease) obstacles.bodies.push_back({"body " + body.name, kind.sampled, body.pose});
 }
 
-BodyDefinition member(const BodyGroup& group, const SceneFrame& frame, const std::string& suffix, const Pose& userPose, const Foam::dictionary& dict)
+/// dict: what says how it moves.
+BodyDefinition member(const BodyKind& kind, const SceneFrame& frame, const std::string& suffix, const Pose& userPose, const Foam::dictionary& dict)
 {
-    BodyDefinition body = group.prototype;
+    BodyDefinition body = kind.prototype;
     body.name += suffix;
-    body.pose = bodyPose(userPose, group, frame);
+    body.pose = bodyPose(userPose, kind, frame);
     body.motion = {readVec3Or(dict, "velocity", Vec3::Zero()), readVec3Or(dict, "angularVelocity", Vec3::Zero())};
     body.releaseTime = readNumberOr(dict, "releaseTime", 0, notNegative);
-    checkPlanar(group, body, frame);
+    checkPlanar(dict, kind, body, frame);
     checkPlanarMotion(dict, "body " + body.name, body.motion, frame);
     return body;
 }
 
+Foam::List<Foam::dictionary> readPoses(const Foam::dictionary& group)
+{
+    const auto poses = readAs<Foam::List<Foam::dictionary>>(group, "poses",
+        "a list of groups in round brackets, with ';' after every value: ( { position (x y z); } { .. } )");
+    if (poses.empty()) failIn(group, "'poses' is empty: list at least one { position (..); }.");
+    return poses;
+}
+
 void placeList(BodyGroup& group, const SceneFrame& frame)
 {
-    const auto poses = readAs<Foam::List<Foam::dictionary>>(*group.dict, "poses",
-        "a list of groups in round brackets, with ';' after every value: ( { position (x y z); } { .. } )");
-    if (poses.empty()) failIn(*group.dict, "'poses' is empty: list at least one { position (..); }.");
+    const auto poses = readPoses(*group.dict);
     forAll(poses, i)
     {
         Foam::dictionary dict(*group.dict); // what a pose does not give is the group's
         checkKeywords(poses[i], {"position", "orientation", "velocity", "angularVelocity", "releaseTime"});
         dict.merge(poses[i]);
-        group.members.push_back(member(group, frame, text(".", i), readPose(dict), dict));
+        group.members.push_back(member(group.kindOf(i), frame, text(".", i), readPose(dict), dict));
     }
 }
 
@@ -104,7 +111,8 @@ void placeArray(BodyGroup& group, const SceneFrame& frame)
     for (const Vec3& offset : readArray(*group.dict, isArray))
     {
         const Pose pose{first.position + offset, first.orientation};
-        group.members.push_back(member(group, frame, isArray ? text(".", i++) : "", pose, *group.dict));
+        group.members.push_back(member(group.kindOf(i), frame, isArray ? text(".", i) : "", pose, *group.dict));
+        ++i;
     }
 }
 
@@ -117,12 +125,14 @@ struct RandomPlacement
     std::uint64_t seed;
 };
 
+int readRandomCount(const Foam::dictionary& dict) { return readCount(dict, "count", {1, largestCount}); }
+
 /// group: around it, whose releaseTime is that of the first body.
 RandomPlacement readRandom(const Foam::dictionary& dict, const Foam::dictionary& group)
 {
     checkKeywords(dict, {"count", "box", "seed", "minGap", "tries", "orientation", "release"});
     RandomPlacement r;
-    r.count = readCount(dict, "count", {1, largestCount});
+    r.count = readRandomCount(dict);
     r.tries = readCountOr(dict, "tries", 1000, {1, 1e7});
     r.seed = readCountOr(dict, "seed", 1, {0, 2147483647});
     r.minGap = readNumberOr(dict, "minGap", 0, notNegative);
@@ -171,10 +181,10 @@ struct TightestFit
 };
 
 /// A pose whose body lies inside the box, centred anywhere it can be. False: the body, turned like this, is larger than the box.
-bool drawPose(const BodyGroup& group, const RandomPlacement& random, const Eigen::Quaterniond& base, const SceneFrame& frame, RandomNumbers& numbers, Pose& pose, TightestFit& tightest)
+bool drawPose(const BodyKind& kind, const RandomPlacement& random, const Eigen::Quaterniond& base, const SceneFrame& frame, RandomNumbers& numbers, Pose& pose, TightestFit& tightest)
 {
-    pose = compose({Vec3::Zero(), drawOrientation(random, base, frame, numbers)}, group.prototype.pose);
-    const auto box = ShapeAtPose{"", group.sampled, pose}.spaceBounds();
+    pose = compose({Vec3::Zero(), drawOrientation(random, base, frame, numbers)}, kind.prototype.pose);
+    const auto box = ShapeAtPose{"", kind.sampled, pose}.spaceBounds();
     const Vec3 lower = random.box[0] - box[0], upper = random.box[1] - box[1];
     const auto isFree = [&](int d) { return frame.isPlanar && d == frame.planeAxis; };
     TightestFit fit{-1e300};
@@ -191,7 +201,7 @@ bool drawPose(const BodyGroup& group, const RandomPlacement& random, const Eigen
 }
 
 /// What was in the way of most of some further tries: bodies may be too many, or the box lies in a structure or nearer to the bed than minGap.
-std::string mostlyInTheWay(const BodyGroup& group, const RandomPlacement& random, const SceneFrame& frame, const Obstacles& obstacles, RandomNumbers& numbers)
+std::string mostlyInTheWay(const BodyKind& kind, const RandomPlacement& random, const Eigen::Quaterniond& base, const SceneFrame& frame, const Obstacles& obstacles, RandomNumbers& numbers)
 {
     constexpr int nTries = 200;
     std::map<std::string, int> counts;
@@ -199,8 +209,8 @@ std::string mostlyInTheWay(const BodyGroup& group, const RandomPlacement& random
     {
         Pose pose;
         TightestFit tightest;
-        if (!drawPose(group, random, readOrientation(*group.dict), frame, numbers, pose, tightest)) continue;
-        const auto conflict = findConflict({group.prototype.name, group.sampled, pose}, obstacles, random.minGap, !group.prototype.entersAtRelease);
+        if (!drawPose(kind, random, base, frame, numbers, pose, tightest)) continue;
+        const auto conflict = findConflict({kind.prototype.name, kind.sampled, pose}, obstacles, random.minGap, !kind.prototype.entersAtRelease);
         if (conflict) ++counts[conflict->with.rfind("body ", 0) == 0 ? "other bodies" : conflict->with];
     }
     if (counts.empty()) return "";
@@ -211,10 +221,10 @@ std::string mostlyInTheWay(const BodyGroup& group, const RandomPlacement& random
 [[noreturn]] void failToPlace(const BodyGroup& group, const RandomPlacement& random, int nPlaced, const TightestFit& tightest, const std::string& inTheWay, const Foam::dictionary& dict)
 {
     if (tightest.excess > roundOff)
-        failIn(dict, text("Bodies '", group.prototype.name, "' do not fit into 'box', which must hold the whole of them: it is ", tightest.extent - tightest.excess,
+        failIn(dict, text("Bodies '", group.name, "' do not fit into 'box', which must hold the whole of them: it is ", tightest.extent - tightest.excess,
             " m long along ", "xyz"[tightest.axis], ", a body ", random.orientation == "fixed" ? "" : "in the best of all orientations that were tried ", tightest.extent,
             " m.\n    Enlarge 'box'", random.orientation == "fixed" ? ", or turn the bodies ('orientation')." : ", or allow more 'tries'."));
-    failIn(dict, text("Only ", nPlaced, " of ", random.count, " bodies '", group.prototype.name, "' found a place within ", random.tries,
+    failIn(dict, text("Only ", nPlaced, " of ", random.count, " bodies '", group.name, "' found a place within ", random.tries,
         " tries.\n    Enlarge 'box', lower 'count' or 'minGap', or allow more 'tries'.", inTheWay));
 }
 
@@ -228,15 +238,16 @@ void placeRandomly(BodyGroup& group, const SceneFrame& frame, Obstacles& obstacl
     const Eigen::Quaterniond base = readOrientation(*group.dict);
     for (int i = 0; i < random.count; ++i)
     {
-        BodyDefinition body = member(group, frame, text(".", i), {}, *group.dict);
+        const BodyKind& kind = group.kindOf(i);
+        BodyDefinition body = member(kind, frame, text(".", i), {}, *group.dict);
         bool isPlaced = false;
         TightestFit tightest;
         for (int k = 0; k < random.tries && !isPlaced; ++k)
-            isPlaced = drawPose(group, random, base, frame, numbers, body.pose, tightest)
-                && isPlaceFree({body.name, group.sampled, body.pose}, obstacles, random.minGap, !body.entersAtRelease);
-        if (!isPlaced) failToPlace(group, random, i, tightest, mostlyInTheWay(group, random, frame, obstacles, numbers), dict);
+            isPlaced = drawPose(kind, random, base, frame, numbers, body.pose, tightest)
+                && isPlaceFree({body.name, kind.sampled, body.pose}, obstacles, random.minGap, !body.entersAtRelease);
+        if (!isPlaced) failToPlace(group, random, i, tightest, mostlyInTheWay(kind, random, base, frame, obstacles, numbers), dict);
         body.releaseTime = random.from + i*random.interval;
-        join(obstacles, group, body);
+        join(obstacles, kind, body);
         group.members.push_back(std::move(body));
     }
 }
@@ -261,6 +272,13 @@ std::vector<Vec3> readArray(const Foam::dictionary& dict, bool& isArray)
     return offsets;
 }
 
+int memberCount(const Foam::dictionary& dict)
+{
+    bool isArray = false;
+    if (dict.found("random")) return readRandomCount(subGroup(dict, "random"));
+    return dict.found("poses") ? readPoses(dict).size() : static_cast<int>(readArray(dict, isArray).size());
+}
+
 bool isRandom(const BodyGroup& group) { return group.dict->found("random"); }
 
 void placeMembers(BodyGroup& group, const SceneFrame& frame, Obstacles& obstacles)
@@ -273,13 +291,14 @@ void placeMembers(BodyGroup& group, const SceneFrame& frame, Obstacles& obstacle
 void checkMembers(const BodyGroup& group, Obstacles& obstacles)
 {
     // bodies may touch, resting on each other or on a wall: a thousandth of the thickness is allowed
-    const double tolerance = 1e-3*group.prototype.thinnest;
-    for (const BodyDefinition& body : group.members)
+    for (std::size_t i = 0; i < group.members.size(); ++i)
     {
-        if (const auto conflict = conflictOf(group, body, obstacles, -tolerance))
+        const BodyKind& kind = group.kindOf(i);
+        const BodyDefinition& body = group.members[i];
+        if (const auto conflict = conflictOf(kind, body, obstacles, -1e-3*body.thinnest))
             failIn(*group.dict, text("Body ", body.name, " reaches ", 1000*conflict->overlap, " mm into ", conflict->with,
-                " at the start.\n    Its centre is at (", body.pose.position[0], ' ', body.pose.position[1], ' ', body.pose.position[2], "). Move it, or let 'random' find places.", unitsAdvice(sizeOf(group, body.pose), obstacles.box[1] - obstacles.box[0])));
-        join(obstacles, group, body);
+                " at the start.\n    Its centre is at (", body.pose.position[0], ' ', body.pose.position[1], ' ', body.pose.position[2], "). Move it, or let 'random' find places.", unitsAdvice(sizeOf(kind, body.pose), obstacles.box[1] - obstacles.box[0])));
+        join(obstacles, kind, body);
     }
 }
 

@@ -62,55 +62,78 @@ bool sharesFace(const DemSetup& setup, int material)
     return false;
 }
 
-/// Material, mass, spheres of a face, weight of its corners, stiffening.
-using Key = std::tuple<int, long, int, double, double>;
-struct BodyKeys { Key spheres, corners; };
+/// What a body's contacts would be with a class of its own.
+struct OwnClasses { ContactClass spheres, corners; };
 
-/// Masses closer than a factor of 1+`tolerance` fall into one class.
-std::vector<BodyKeys> bodyKeys(const DemSetup& setup, double tolerance)
+std::vector<OwnClasses> ownClasses(const DemSetup& setup)
 {
     const auto rounded = [](double value) { return 1e-6 * std::round(1e6 * value); };
-    std::vector<BodyKeys> keys;
+    std::vector<OwnClasses> all;
     for (const BodyDefinition& body : setup.bodies)
     {
         const int faceCount = sharesFace(setup, body.material) ? flattestFaceCount(body) : 1;
         const double stiffening = rounded(cornerStiffening(body));
-        const Key own(body.material, std::lround(std::log(body.mass) / std::log1p(tolerance)), faceCount, cornersOfFace(body) * stiffening, 1);
-        keys.push_back({own, own});
+        const ContactClass own{false, body.material, body.mass, faceCount, 1, cornersOfFace(body) * stiffening};
+        all.push_back({own, own});
         if (!body.corners.empty())
-            std::get<4>(keys.back().corners) = stiffening;
+            all.back().corners.stiffening = stiffening;
     }
-    return keys;
+    return all;
 }
 
-/// The class of the key, made if there is none; of the smallest mass in it, which gives the smaller damping and never a stiffer dashpot.
-int classOf(const Key& key, double mass, std::map<Key, int>& known, ContactTable& table)
+/// Material, whether corners, mass, spheres of a face, weight of its corners, stiffening: bodies whose masses are closer than a factor of 1+`tolerance`, and the others' numbers than
+/// `coarser` times its logarithm, share a class. The mass makes the restitution, what the others make is how deep spheres sink in.
+using Key = std::tuple<int, bool, long, long, long, long>;
+
+Key keyOf(const ContactClass& c, double tolerance)
 {
-    const auto [it, isNew] = known.emplace(key, table.size());
+    constexpr double coarser = 4;
+    const double width = std::log1p(tolerance);
+    const auto step = [&](double value) { return std::lround(std::log(value) / (coarser * width)); };
+    return {c.material, c.isCorner(), std::lround(std::log(c.mass) / width), step(c.faceCount), step(1 + c.cornerWeight), step(c.stiffening)};
+}
+
+double sharedTolerance(const std::vector<OwnClasses>& all)
+{
+    for (double tolerance = 1e-6; tolerance < 1; tolerance *= 1.5)
+    {
+        std::set<Key> distinct;
+        for (const OwnClasses& own : all)
+            distinct.insert({keyOf(own.spheres, tolerance), keyOf(own.corners, tolerance)});
+        if (static_cast<int>(distinct.size()) <= largestClassCount)
+            return tolerance;
+    }
+    return 1;
+}
+
+struct SharedClass { int index, fewest, most; }; // spheres of a face
+
+/// The class of the key, made if there is none: of the smallest mass in it, which gives the smaller damping and never a stiffer dashpot, and a middle number of spheres.
+int classOf(const ContactClass& own, double tolerance, std::map<Key, SharedClass>& known, ContactTable& table)
+{
+    const auto [it, isNew] = known.emplace(keyOf(own, tolerance), SharedClass{table.size(), own.faceCount, own.faceCount});
     if (isNew)
-        table.classes.push_back({false, std::get<0>(key), mass, std::get<2>(key), std::get<4>(key), std::get<3>(key)});
-    ContactClass& c = table.classes[static_cast<size_t>(it->second)];
-    c.mass = std::min(c.mass, mass);
-    return it->second;
+        table.classes.push_back(own);
+    SharedClass& shared = it->second;
+    ContactClass& c = table.classes[static_cast<size_t>(shared.index)];
+    shared.fewest = std::min(shared.fewest, own.faceCount);
+    shared.most = std::max(shared.most, own.faceCount);
+    c.faceCount = static_cast<int>(std::lround(std::sqrt(double(shared.fewest) * shared.most)));
+    c.mass = std::min(c.mass, own.mass);
+    c.cornerWeight = std::min(c.cornerWeight, own.cornerWeight);
+    c.stiffening = std::max(c.stiffening, own.stiffening);
+    return shared.index;
 }
 
 void addBodyClasses(const DemSetup& setup, ContactTable& table)
 {
-    std::vector<BodyKeys> keys;
-    for (double tolerance = 1e-6;; tolerance *= 4)
+    const std::vector<OwnClasses> all = ownClasses(setup);
+    const double tolerance = sharedTolerance(all);
+    std::map<Key, SharedClass> known;
+    for (const OwnClasses& own : all)
     {
-        keys = bodyKeys(setup, tolerance);
-        std::set<Key> distinct;
-        for (const BodyKeys& key : keys)
-            distinct.insert({key.spheres, key.corners});
-        if (static_cast<int>(distinct.size()) <= largestClassCount || tolerance > 1)
-            break;
-    }
-    std::map<Key, int> known;
-    for (size_t b = 0; b < keys.size(); ++b)
-    {
-        table.classOfBody.push_back(classOf(keys[b].spheres, setup.bodies[b].mass, known, table));
-        table.classOfCorners.push_back(classOf(keys[b].corners, setup.bodies[b].mass, known, table));
+        table.classOfBody.push_back(classOf(own.spheres, tolerance, known, table));
+        table.classOfCorners.push_back(classOf(own.corners, tolerance, known, table));
     }
 }
 

@@ -63,6 +63,40 @@ TEST_CASE("classes: one per material, mass and face; shared when there are very 
     CHECK_THROWS_AS(makeContactTable(setup), DemError);
 }
 
+TEST_CASE("bars of many sizes share classes: stiffness within a factor, damping ratios no larger and not much smaller")
+{
+    DemSetup setup = scene({}, {plane(Vec3::Zero(), Vec3::UnitZ())});
+    std::vector<ContactTable> own;
+    for (int i = 0; i < 120; ++i)
+    {
+        const double length = 0.1 + 0.3 * (0.618034 * i - std::floor(0.618034 * i)), width = 0.015 + 0.02 * (0.7548777 * i - std::floor(0.7548777 * i));
+        BodyDefinition body = debris(Vec3::Zero());
+        const auto box = makeBox(Vec3::Zero(), {length, width, width});
+        body.shape = box;
+        body.mass = 600 * length * width * width;
+        body.thinnest = width;
+        body.spheres = surfaceSpheres(*box, 0.25 * width, 0.5 * width, 0.125 * width);
+        body.corners = cornerSpheres(*box, width / 16);
+        setup.bodies.push_back(body);
+        own.push_back(makeContactTable(scene({body}, {plane(Vec3::Zero(), Vec3::UnitZ())})));
+    }
+    const ContactTable table = makeContactTable(setup);
+    CHECK(table.size() <= 65);
+    CHECK(table.size() > 24);
+    const auto atWall = [](const ContactTable& t, const std::vector<double>& values, int a) { return values[static_cast<size_t>(a * t.size() + t.classOfWall[0])]; };
+    for (size_t b = 0; b < own.size(); ++b)
+        for (const bool isCorner : {false, true})
+        {
+            const int shared = isCorner ? table.classOfCorners[b] : table.classOfBody[b], alone = isCorner ? own[b].classOfCorners[0] : own[b].classOfBody[0];
+            const double stiffer = atWall(table, table.stiffness, shared) / atWall(own[b], own[b].stiffness, alone);
+            CHECK(std::abs(std::log(stiffer)) < std::log(1.8));
+            // damping ratio of one sphere
+            const double damped = atWall(table, table.damping, shared) / atWall(own[b], own[b].damping, alone) / std::sqrt(stiffer);
+            CHECK(damped <= 1 + 1e-6);
+            CHECK(damped > 0.8);
+        }
+}
+
 TEST_CASE("corners: as stiff as their radius is smaller, damped for the same restitution; flat landings count them in")
 {
     BodyDefinition body = debris(Vec3::Zero());
