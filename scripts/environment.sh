@@ -3,7 +3,7 @@
 # Sourced (bash) by every script: where things are, and what OpenFOAM and Open MPI need to run.
 flotsamRoot=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 flotsamBuild=${FLOTSAM_BUILD:-$flotsamRoot/build}
-export PATH="$flotsamBuild/bin:$PATH"
+export PATH="$flotsamBuild/bin:$flotsamRoot/scripts:$PATH"
 
 # Debian's OpenFOAM programs find their etc/ folder by this alone
 if [ -z "${WM_PROJECT_DIR:-}" ] && [ -f /usr/share/openfoam/etc/controlDict ]; then

@@ -62,7 +62,7 @@ def anchors_of(page):
 
 def tests_of(root):
     lists = "\n".join(p.read_text(encoding="utf-8") for p in sorted((root/"tests").glob("*.cmake")))
-    names = set(re.findall(r"flotsam_(?:test|case)\((\w+)", lists))
+    names = set(re.findall(r"(?:flotsam_(?:test|case)\(|add_test\(NAME \w+\.)(\w+)", lists))
     for group in re.findall(r"foreach\(\w+ ([^)]*)\)", lists):
         names.update(group.split())
     return names

@@ -1,0 +1,52 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# flotsamReport after short runs: bars at pipes (3D), a bar afloat (2D): page, figures, plots and pictures; what is wrong with the command line is said.
+. "$(dirname "$0")/support.sh"
+mkdir -p "$work" && cd "$work" || exit
+rm -rf ./*
+report=$flotsamRoot/scripts/flotsamReport
+
+makeJam jam
+fixedSteps jam 0.005 0.05 5
+makeFloatingBar bar
+fixedSteps bar 0.01 0.02 2
+for name in jam bar; do
+    (cd $name && solve 1) || exit
+    (cd $name && quietly "$report") || exit
+done
+(cd jam && quietly "$report" --start 0.02 --at -0.1 --direction=x --structures pipes --no-pictures) || exit
+for mistake in "nowhere" "jam --start 99" "jam --structures rack"; do
+    # shellcheck disable=SC2086
+    "$report" $mistake > log.mistake 2>&1 && fail "no error of: flotsamReport $mistake"
+    grep -q "^flotsamReport: " log.mistake && ! grep -q Traceback log.mistake || fail "message of: flotsamReport $mistake: $(cat log.mistake)"
+done
+
+python - << 'PY'
+import json
+import os
+import sys
+
+import numpy as np
+
+import checks
+import flotsam
+
+h = flotsam.history("jam")
+with open("jam/postProcessing/flotsam/report/report.json", encoding="utf-8") as file:
+    figures = json.load(file)
+dt = h.run["dt"] * (h.time >= 0.02)
+for what, quantity in (("water", "fluidForce"), ("bodies", "contactForce")):
+    mean = dt @ sum(getattr(h["structures/" + name], quantity) for name in h.structures) / dt.sum()
+    checks.check(f"force of the {what} on the pipes [N]", np.abs(np.array(figures["forces"]["pipes"][what]) - mean).max(), 0, 1e-9)
+s = np.array([h["bodies/" + name].position[-1, 0] for name in h.bodies])
+checks.check("bars beyond -0.1 m", figures["bodies"]["passed"], (s > -0.1).sum(), 0)
+checks.check("bars in all", sum(figures["bodies"][fate] for fate in ("awaited", "coming", "held", "passed", "left")), 3, 0)
+for name, pictures in (("jam", ["series.png", "scene_0.05s.png"]), ("bar", ["series.png", "scene_0.02s.png"])):
+    folder = f"{name}/postProcessing/flotsam/report"
+    text = open(f"{folder}/report.md", encoding="utf-8").read()
+    for picture in pictures:
+        checks.check(f"{name}: {picture} [kB at least 5]", float(os.path.getsize(f"{folder}/{picture}") > 5000), 1, 0)
+        if name == "bar":   # the page of jam is that of the second call
+            checks.check(f"{name}: {picture} on its page", float(f"({picture})" in text), 1, 0)
+sys.exit(checks.count())
+PY

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Test of tutorials/common/clogging.py: bodies of known ways, forces of known series."""
+
+import os
+import sys
+import types
+import unittest
+
+import numpy as np
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tutorials", "common"))
+import clogging  # noqa: E402
+import flotsam  # noqa: E402
+
+DOWNSTREAM = -np.eye(3)[1]
+SPEED = 0.5     # of the stream [m/s]
+
+
+class History:
+    """As bodyHistory.History: bodies whose way along the stream is a function of time; one structure from s = 1.9 to 2 m."""
+
+    def __init__(self, time, ways, come=None, gone=None):
+        self.time = time
+        self.run = {"dt": np.diff(time, prepend=time[0])}
+        self.bodies, self.structures = list(ways), ["rack.0", "rack.1"]
+        self._members = {}
+        for name, way in ways.items():
+            start, end = (come or {}).get(name, -1), (gone or {}).get(name, np.inf)
+            s = np.array([way(min(max(t, start), end)) for t in time])
+            self._members["bodies/" + name] = types.SimpleNamespace(position=s[:, None] * DOWNSTREAM, awaited=(time < start) * 1.0, left=(time >= end) * 1.0)
+        for k in range(2):
+            self._members[f"structures/rack.{k}"] = types.SimpleNamespace(number=k, fluidForce=np.outer(time, [0, -1, k]), contactForce=np.outer(time > 1, [0, -3, 0]),
+                                                                          peakContactForce=np.outer(np.where(np.abs(time - 2) < 1e-9, 10 + k, 1), [0, -1, 0]))
+        corners = np.array([(0, -1.9, 0), (0, -2.0, 0), (1, -2.0, 0)], dtype=float)
+        self.surface = {"time": np.array([0.0, 4.0]), "points": np.concatenate([corners, corners + 7]), "triangles": np.array([[0, 1, 2]]), "member": np.array([0])}
+
+    def __getitem__(self, name):
+        return self._members[name]
+
+
+class Clogging(unittest.TestCase):
+    def test_fates(self):
+        time = np.linspace(0, 8, 321)
+        ways = {"held": lambda t: min(SPEED * t, 1.6), "passes": lambda t: SPEED * t, "late": lambda t: SPEED * (t - 6), "never": lambda t: 0.0,
+                "goes": lambda t: SPEED * t, "strays": lambda t: SPEED * min(t, 2.0)}
+        h = History(time, ways, come={"late": 6.0, "never": 99.0}, gone={"goes": 6.0, "strays": 1.0})
+        direction = clogging.streamDirection(h)
+        np.testing.assert_array_equal(direction, DOWNSTREAM)
+        zone = clogging.zoneOf(h, h.structures, direction)
+        np.testing.assert_allclose(zone, (1.9, 2.0))
+        fate = clogging.fates(h, zone, direction)
+        np.testing.assert_array_equal(sum(state.astype(int) for state in fate), 1)
+        at = lambda name, t: next(f for f, state in fate._asdict().items() if state[list(ways).index(name), np.searchsorted(time, t - 1e-9)])  # noqa: E731
+        self.assertEqual([at("held", t) for t in (0, 1, 3, 3.3, 4, 8)], ["coming"] * 4 + ["held"] * 2)   # stops at 3.2 s; mean speed below a quarter 3/8 s later
+        self.assertEqual([at("passes", t) for t in (1, 3.9, 4.1, 8)], ["coming", "coming", "passed", "passed"])
+        self.assertEqual([at("late", t) for t in (0, 5.9, 6.0, 6.4, 8)], ["awaited", "awaited", "coming", "coming", "coming"])
+        self.assertEqual([at("never", t) for t in (0, 8)], ["awaited"] * 2)
+        self.assertEqual([at("goes", t) for t in (3, 5, 8)], ["coming", "passed", "passed"])    # it left downstream
+        self.assertEqual([at("strays", t) for t in (0.9, 1.1, 8)], ["coming", "left", "left"])
+        share = clogging.retention(fate)
+        self.assertTrue(np.isnan(share[0]))
+        self.assertAlmostEqual(share[-1], 1 / 3)
+
+    def test_without_bodies_and_structures(self):
+        h = History(np.linspace(0, 1, 5), {})
+        self.assertEqual(clogging.fates(h, clogging.Zone(0, 1), DOWNSTREAM).held.shape, (0, 5))
+        self.assertIsNone(clogging.zoneOf(h, [], DOWNSTREAM))
+        self.assertEqual(clogging.chosen(h, ["rack"]), h.structures)
+        self.assertEqual(clogging.chosen(h, ["rack.1"]), ["rack.1"])
+        with self.assertRaisesRegex(flotsam.CaseError, "no structure dam; there are: rack"):
+            clogging.chosen(h, ["dam"])
+        self.assertEqual(clogging.groupsOf(["rack.0", "rack.1", "v1.5", "pier"]), {"rack": ["rack.0", "rack.1"], "v1": ["v1.5"], "pier": ["pier"]})
+
+    def test_confidence(self):
+        np.testing.assert_allclose(clogging.confidence(8, 10), (0.49016, 0.94332), atol=2e-5)    # Wilson 1927
+        for held in (0, 7):
+            low, high = clogging.confidence(held, 7)
+            self.assertGreaterEqual(low, -1e-12)
+            self.assertLessEqual(high, 1 + 1e-12)
+
+    def test_forces_of_uneven_steps(self):
+        time = np.concatenate([np.linspace(0, 2, 21), np.linspace(2, 4, 201)[1:]])
+        series = clogging.structureSeries(History(time, {}), ["rack.0", "rack.1"])
+        force = clogging.forceOf(series, DOWNSTREAM, 2.0)
+        # of steps from 2 s on: the first has 0.1 s, 200 have 0.01 s
+        np.testing.assert_allclose(force.water, np.array([0, -2, 1]) * (0.1 * 2 + 0.01 * time[21:].sum()) / 2.1)
+        np.testing.assert_allclose(force.contact, (0, -6, 0))
+        self.assertAlmostEqual(force.largest, 6 + 2 * 3.955, places=9)   # ten steps, the last at 4 s
+        self.assertEqual((force.impact, force.impactTime), (11, 2))
+
+
+if __name__ == "__main__":
+    unittest.main()
