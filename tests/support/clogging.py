@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Test of tutorials/common/clogging.py: bodies of known ways, forces of known series."""
+"""Test of tutorials/common/clogging.py and ensemble.py: bodies of known ways, forces of known series, runs put together."""
 
 import os
 import sys
@@ -10,6 +10,7 @@ import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tutorials", "common"))
 import clogging  # noqa: E402
+import ensemble  # noqa: E402
 import flotsam  # noqa: E402
 
 DOWNSTREAM = -np.eye(3)[1]
@@ -87,6 +88,24 @@ class Clogging(unittest.TestCase):
         np.testing.assert_allclose(force.contact, (0, -6, 0))
         self.assertAlmostEqual(force.largest, 6 + 2 * 3.955, places=9)   # ten steps, the last at 4 s
         self.assertEqual((force.impact, force.impactTime), (11, 2))
+
+    def test_runs_with_one_value_are_put_together(self):
+        def member(value, seed, held, passed, force):
+            figures = {"direction": [0, -1, 0], "forces": {"rack": {"water": [5, -force, 0], "bodies": [0, -1, 0]}}, "bodies": {"held": held, "passed": passed, "retention": held / (held + passed)}}
+            return ensemble.Member("", (value, seed), figures)
+        groups = ensemble.together([member("0.1", "1", 3, 1, 4), member("0.2", "1", 0, 4, 2), member("0.1", "2", 4, 0, 6)], 0)
+        self.assertEqual([(g.value, g.runs, g.held, g.came) for g in groups], [("0.1", 2, 7, 8), ("0.2", 1, 0, 4)])
+        np.testing.assert_allclose(groups[0].forces["rack"], (6, np.sqrt(2)))
+        self.assertAlmostEqual(groups[0].scatter, np.std([0.75, 1], ddof=1))
+        self.assertAlmostEqual(groups[0].low, clogging.confidence(7, 8)[0])
+        self.assertIn("| 0.1 | 2 | 7 | 8 | 0.875 |", ensemble.table(groups, "pitch"))
+
+    def test_entries_are_set_in_the_text(self):
+        text = "pitch 0.1; // pitch 0.3;\na { pitch2 1; seed  7;\n  speed $pitch; }\n// seed 3;\n"
+        self.assertEqual(ensemble.withValue(text, "seed", "8"), (text.replace("seed  7;", "seed  8;"), 1))
+        self.assertEqual(ensemble.withValue(text, "pitch", "2")[0].split(";")[0], "pitch 2")
+        self.assertEqual(ensemble.withValue(text, "pitch2", "(1 2)"), (text.replace("pitch2 1", "pitch2 (1 2)"), 1))
+        self.assertEqual(ensemble.withValue(text, "nothing", "2"), (text, 0))
 
 
 if __name__ == "__main__":
