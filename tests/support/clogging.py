@@ -42,7 +42,7 @@ class History:
 class Clogging(unittest.TestCase):
     def test_fates(self):
         time = np.linspace(0, 8, 321)
-        ways = {"held": lambda t: min(SPEED * t, 1.6), "passes": lambda t: SPEED * t, "late": lambda t: SPEED * (t - 6), "never": lambda t: 0.0,
+        ways = {"held": lambda t: min(SPEED * t, 1.6), "passes": lambda t: SPEED * t, "late": lambda t: SPEED * min(t - 6, 1.0), "never": lambda t: 0.0,
                 "goes": lambda t: SPEED * t, "strays": lambda t: SPEED * min(t, 2.0)}
         h = History(time, ways, come={"late": 6.0, "never": 99.0}, gone={"goes": 6.0, "strays": 1.0})
         direction = clogging.streamDirection(h)
@@ -54,13 +54,13 @@ class Clogging(unittest.TestCase):
         at = lambda name, t: next(f for f, state in fate._asdict().items() if state[list(ways).index(name), np.searchsorted(time, t - 1e-9)])  # noqa: E731
         self.assertEqual([at("held", t) for t in (0, 1, 3, 3.3, 4, 8)], ["coming"] * 4 + ["held"] * 2)   # stops at 3.2 s; mean speed below a quarter 3/8 s later
         self.assertEqual([at("passes", t) for t in (1, 3.9, 4.1, 8)], ["coming", "coming", "passed", "passed"])
-        self.assertEqual([at("late", t) for t in (0, 5.9, 6.0, 6.4, 8)], ["awaited", "awaited", "coming", "coming", "coming"])
+        self.assertEqual([at("late", t) for t in (0, 5.9, 6.0, 6.4, 7.3, 7.5, 8)], ["awaited"] * 2 + ["coming"] * 3 + ["held"] * 2)     # stops at 7 s
         self.assertEqual([at("never", t) for t in (0, 8)], ["awaited"] * 2)
         self.assertEqual([at("goes", t) for t in (3, 5, 8)], ["coming", "passed", "passed"])    # it left downstream
         self.assertEqual([at("strays", t) for t in (0.9, 1.1, 8)], ["coming", "left", "left"])
         share = clogging.retention(fate)
         self.assertTrue(np.isnan(share[0]))
-        self.assertAlmostEqual(share[-1], 1 / 3)
+        self.assertAlmostEqual(share[-1], 2 / 4)
 
     def test_without_bodies_and_structures(self):
         h = History(np.linspace(0, 1, 5), {})

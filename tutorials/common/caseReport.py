@@ -203,8 +203,7 @@ def main():
         out.write(text)
     with open(os.path.join(folder, "report.json"), "w", encoding="utf-8") as out:
         json.dump(figures, out, indent=1)
-    print(text)
-    print("Written: " + os.path.abspath(folder))
+    print(text + "\nWritten: " + os.path.abspath(folder))
 
 
 if __name__ == "__main__":

@@ -78,8 +78,7 @@ def fates(h, zone, direction):
 
 def _isNew(h, awaited, span):
     """Until `span` seconds after it has come in a body's mean speed is not its own, bodies x records."""
-    isLate = awaited[:, :1] | awaited
-    arrival = h.time[np.minimum(isLate.sum(1), len(h.time) - 1)]
+    arrival = h.time[np.minimum(awaited.sum(1), len(h.time) - 1)]
     return awaited[:, :1] & (h.time < arrival[:, None] + span)
 
 
