@@ -2,6 +2,7 @@
 #include "foam/surfaceCells.H"
 
 #include <cmath>
+#include <utility>
 
 namespace flotsam
 {
@@ -105,7 +106,7 @@ void SurfaceCells::addCellsAtFaces(const std::vector<double>& fraction, const st
 
 void SurfaceCells::add(int c, double fraction)
 {
-    SurfaceCell p{c, 0, fraction, 0, 0, {}};
+    SurfaceCell p{c, 0, fraction, 0, 0, {}, true};
     p.volume = collectCell(adapter_, c, p.nodes);
     p.size = std::pow(p.volume, 1.0/mesh_.dim);
     cut_.push_back(std::move(p));
@@ -115,9 +116,9 @@ void SurfaceCells::add(int c, double fraction)
 bool SurfaceCells::setTrust(std::size_t k, bool isTrusted)
 {
     SurfaceCell& p = cut_[k];
-    const double before = p.weight;
+    const bool wasTrusted = std::exchange(p.isTrusted, isTrusted);
     p.weight = p.volume*((isTrusted ? p.fraction*(1 - p.fraction) : 0) + faceWeight); // slivers say little about the surface
-    return p.weight != before;
+    return isTrusted != wasTrusted;
 }
 
 double SurfaceCells::diagonal(const SurfaceCell& p) const

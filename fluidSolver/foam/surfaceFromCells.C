@@ -20,6 +20,7 @@ namespace
 constexpr int maxSweeps = 200;          // a plane is found to round-off in 20 to 100
 constexpr double smallestChange = 1e-13;  // of the level, per sweep, over the common length
 constexpr double onSurface = 1e-11;     // level of nodes that the surface goes through: round-off must not say which elements it cuts
+constexpr int mostReturns = 2;          // of a cell to those that are trusted: whether a plane fits it may hang on itself, and then never settles
 constexpr int patience = 10;            // sweeps in which the change must halve: a surface that is no plane settles at a finite one
 
 class Reconstruction
@@ -35,6 +36,7 @@ public:
         cells_.dropMixtures(alpha);
         std::vector<double> level(alpha.size());
         for (std::size_t i = 0; i < level.size(); ++i) level[i] = alpha[i] - 0.5;
+        returns_.assign(cells_.cut().size(), 0);
         std::vector<char> isAtSide = followProfiles(adapter_, halo_, cells_, fraction_, level);
         double change = 1e300, before = 1e300;
         for (int sweep = 1; sweep <= maxSweeps && change > smallestChange; ++sweep)
@@ -94,6 +96,9 @@ private:
             low = std::min(low, along(normal, i));
             high = std::max(high, along(normal, i));
         }
+        // through its last corner: the share is flat there, beside warped faces not even monotone, and round-off would choose the root
+        if (p.fraction == 1) return low;
+        if (p.fraction == 0) return high;
         double at = p.fraction*low + (1 - p.fraction)*high;
         for (int k = 0; k < 60 && high - low > 1e-15*p.size; ++k) // Newton within a bracket: the fraction falls from 1 to 0
         {
@@ -139,6 +144,13 @@ private:
         return result;
     }
 
+    /// Not where the surface cuts a face of the cell twice, which no plane does.
+    bool mayBeTrusted(std::size_t k, const std::vector<double>& level) const
+    {
+        if (mesh_.dim == 2) return true;
+        return returns_[k] <= mostReturns && !shareOfCell_.cutsFaceTwice(cells_.cut()[k].cell, [&](Foam::label i) { return level[adapter_.pointNode[i]] > 0; });
+    }
+
     /// One sweep: planes of the cells from the level's gradient, level of the nodes from the planes. Returns the largest change.
     double average(std::vector<double>& level)
     {
@@ -147,8 +159,12 @@ private:
         for (std::size_t k = 0; k < cells_.cut().size(); ++k)
         {
             const SurfaceCell& p = cells_.cut()[k];
-            const bool isTrusted = mesh_.dim == 2 || !shareOfCell_.cutsFaceTwice(p.cell, [&](Foam::label i) { return level[adapter_.pointNode[i]] > 0; });
-            hasOtherTrust_ = cells_.setTrust(k, isTrusted) || hasOtherTrust_;
+            const bool isTrusted = mayBeTrusted(k, level);
+            if (cells_.setTrust(k, isTrusted))
+            {
+                hasOtherTrust_ = true;
+                returns_[k] += isTrusted;
+            }
             position[k] = isTrusted ? offset(p, normal[k]) : offsetOfNeighbours(p, normal[k], level);
         }
         const auto levelOfPlane = [&](std::size_t k, int i, double* value) { *value = (along(normal[k], i) - position[k])/cells_.length(); }; // within 1/2
@@ -225,6 +241,7 @@ private:
     SurfaceCells cells_;
     CellShare shareOfCell_;
     bool hasOtherTrust_ = false;    // than some sweeps ago
+    std::vector<int> returns_;      // of each cell to those that are trusted
     std::vector<double> weight_;    // of the nodes in the last sweep
 };
 
