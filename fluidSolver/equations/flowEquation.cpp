@@ -56,9 +56,13 @@ void FlowEquation::setMaterials()
         nodal_.rhoOlder[i] = fluid_.isTwoPhase ? density(fluid_, controls_, s.alphaOlder[i]) : nodal_.rho[i];
         nodal_.mu[i] = viscosity(fluid_, controls_, alpha);
     }
-    const auto isAlways = [&](int i, double rho) { return nodal_.rho[i] == rho && nodal_.rhoOld[i] == rho && nodal_.rhoOlder[i] == rho; };
-    for (int i = 0; i < mesh_.nNodes; ++i)
-        nodal_.fluid[i] = isAlways(i, fluid_.rhoLiquid) ? NodalData::Liquid : isAlways(i, fluid_.rhoGas) ? NodalData::Gas : NodalData::Mixed;
+    // by the phase, not by densities: those of two fluids may be the same
+    const auto isAlways = [&](int i, double share)
+    {
+        return fluid_.isTwoPhase ? liquidShare(controls_, s.alpha[i]) == share && liquidShare(controls_, s.alphaOld[i]) == share && liquidShare(controls_, s.alphaOlder[i]) == share
+                                 : share == 1;
+    };
+    for (int i = 0; i < mesh_.nNodes; ++i) nodal_.fluid[i] = isAlways(i, 1) ? NodalData::Liquid : isAlways(i, 0) ? NodalData::Gas : NodalData::Mixed;
     const TimeScheme& t = step_.time;
     const std::size_t n = std::size_t(mesh_.nNodes)*mesh_.dim;
     for (std::size_t k = 0; k < n; ++k)

@@ -10,18 +10,18 @@ MassFluxes::MassFluxes(const SimplexMesh& mesh, const FluidProperties& fluid, co
 :   mesh_(mesh), fluid_(fluid), controls_(controls), nPairs_(mesh.dim == 2 ? CornerPairs<2>::count : CornerPairs<3>::count)
 {}
 
-void MassFluxes::setDensities(const std::vector<double>& alphaOld, const std::vector<double>& alpha)
+void MassFluxes::setShares(const std::vector<double>& alphaOld, const std::vector<double>& alpha)
 {
-    rho_.resize(mesh_.nNodes);
-    for (int i = 0; i < mesh_.nNodes; ++i) rho_[i] = {density(fluid_, controls_, alphaOld[i]), density(fluid_, controls_, alpha[i])};
+    share_.resize(mesh_.nNodes);
+    for (int i = 0; i < mesh_.nNodes; ++i) share_[i] = {liquidShare(controls_, alphaOld[i]), liquidShare(controls_, alpha[i])};
 }
 
 bool MassFluxes::isVarying(int element) const
 {
     const int n = mesh_.dim + 1;
     const int* nodes = &mesh_.elements[std::size_t(element)*n];
-    const double first = rho_[nodes[0]][0];
-    return std::any_of(nodes, nodes + n, [&](int i) { return rho_[i][0] != first || rho_[i][1] != first; });
+    const double first = share_[nodes[0]][0];
+    return std::any_of(nodes, nodes + n, [&](int i) { return share_[i][0] != first || share_[i][1] != first; });
 }
 
 void MassFluxes::clear()
@@ -35,7 +35,7 @@ void MassFluxes::clear()
 void MassFluxes::keep(const DualCellTransport& transport, const std::vector<double>& alphaOld, const std::vector<double>& alpha)
 {
     clear();
-    setDensities(alphaOld, alpha);
+    setShares(alphaOld, alpha);
     for (int e = 0; e < mesh_.nInnerElements; ++e)
     {
         if (!isVarying(e)) continue;

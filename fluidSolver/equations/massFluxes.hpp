@@ -40,7 +40,7 @@ public:
     void setRecords(const std::vector<double>& records);
 
 private:
-    void setDensities(const std::vector<double>& alphaOld, const std::vector<double>& alpha);
+    void setShares(const std::vector<double>& alphaOld, const std::vector<double>& alpha);
     bool isVarying(int element) const;
     void clear();
 
@@ -51,7 +51,7 @@ private:
     std::vector<int> at_;           // per element: its place among those kept, -1
     std::vector<int> elements_;     // those kept
     std::vector<double> values_;
-    std::vector<std::array<double, 2>> rho_;    // nNodes: at the start and at the end of the step that keep() is about
+    std::vector<std::array<double, 2>> share_;  // nNodes: the liquid's, as densities could be those of both fluids; at the start and at the end of the step that keep() is about
 };
 
 } // namespace flotsam
