@@ -72,9 +72,10 @@ Vector solveWithin(const Matrix& m, const Vector& b)
     return x;
 }
 
-/// A steep profile, continued linearly, would come back out at the rim.
-double shareToRest(const Vector& mean, const Vector& change)
+/// A steep profile, continued linearly, would come back out at the rim. What is at rest (slower than `rest`, round-off) stays so: which way it went would decide.
+double shareToRest(const Vector& mean, const Vector& change, double rest)
 {
+    if (mean.norm() <= rest) return 0;
     const double along = -change.dot(mean), all = mean.squaredNorm();
     return along > all ? all/along : 1;
 }
@@ -121,6 +122,10 @@ std::vector<double> velocityAtNodes(const Foam::polyPatch& patch, const MeshAdap
     const int dim = mesh.dim, width = 2*dim*dim;
     const std::vector<double> mean = averageToNodes(patch, adapter, halo, nodes.nodes, faceVelocities, dim);
     const std::vector<double> centre = averageToNodes(patch, adapter, halo, nodes.nodes, inPlane(mesh, patch.faceCentres()), dim);
+    constexpr double roundOff = 1e-12;  // of the fastest face
+    double fastest = 0;
+    for (const double u : faceVelocities) fastest = std::max(fastest, std::abs(u));
+    const double rest = roundOff*halo.max(fastest);
     const std::vector<double> sums = differenceSums(patch, adapter, halo, nodes, mean, centre);
 
     std::vector<double> change(static_cast<std::size_t>(mesh.nNodes)*dim, 0.0);
@@ -132,7 +137,7 @@ std::vector<double> velocityAtNodes(const Foam::polyPatch& patch, const MeshAdap
         const Eigen::Map<const Eigen::MatrixXd> ofPlaces(s, dim, dim), ofValues(s + dim*dim, dim, dim);
         const Vector way = alongPatch(nodes, int(k), at(mesh.x, i, dim) - at(centre, int(k), dim));
         const Vector all = ofValues.transpose()*solveWithin(ofPlaces, way);
-        const Vector counted = shareToRest(at(mean, int(k), dim), all)*all;
+        const Vector counted = shareToRest(at(mean, int(k), dim), all, rest)*all;
         std::copy(counted.data(), counted.data() + dim, &change[static_cast<std::size_t>(i)*dim]);
     }
     halo.update(change, dim);

@@ -88,6 +88,22 @@ TEST_CASE("velocities of faces at the nodes of the patch")
     }
 }
 
+TEST_CASE("above a step in the velocities of an inlet's faces nodes rest as all of their faces do, whichever way round-off has it")
+{
+    const FaceScene s(Edits{inletOnTwoRanks, {"system/blockMeshDict", "simpleGrading (1 1 1)", "simpleGrading (1 4 1)"}}, "blockMeshDict");
+    for (const double speed : {9., 0.3895345, 1/3.})
+    {
+        const std::vector<double> u = s.atNodes([&](const Foam::vector& x) { return Foam::vector(x.y() < 0.4 ? speed : 0, 0, 0); });
+        double lowest = 1e300;  // point of a face at rest
+        for (const Foam::face& f : s.faces)
+            if (f.centre(s.faces.points()).y() > 0.4)
+                for (const Foam::label i : f) lowest = std::min(lowest, s.faces.points()[i].y());
+        lowest = -s.halo.max(-lowest);
+        for (std::size_t k = 0; k < s.nodes.nodes.size(); ++k)
+            if (s.adapter.mesh.spacePoint(s.nodes.nodes[k])[1] > lowest + 1e-9) CHECK(u[2*k] == within(0, 1e-14));
+    }
+}
+
 TEST_CASE("a list of phase values; walls given as fixedValue zero")
 {
     if (!isSerial()) return;
