@@ -5,6 +5,8 @@
 #include "syncTools.H"
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
 #include <tuple>
 #include <vector>
 
@@ -65,15 +67,29 @@ boolList findStepsOfSize(const polyMesh& mesh, int vertical)
     return isStep;
 }
 
+/// An even number below 2^53 made of a point's place alone: whoever numbers the points, and on whatever processes they are, it is the same.
+scalar placeNumber(const point& x)
+{
+    std::uint64_t number = 0;
+    for (int d = 0; d < 3; ++d)
+    {
+        const double value = x[d] + 0.0;    // -0 and 0 are one place
+        std::uint64_t bits;
+        std::memcpy(&bits, &value, sizeof bits);
+        number = (number ^ bits)*0x9e3779b97f4a7c15u;  // multiplicative hashing, the high bits down again (Knuth)
+        number ^= number >> 32;
+    }
+    return scalar(number >> 12 << 1);   // syncTools knows scalars
+}
+
 /// Parity of the number of layers between a point and the first one, on shortest paths along edges: each point follows the neighbour of the
-/// smallest key among those that were reached before it, on any number of processes the same. Parts of the mesh that are not joined, or only by steps of the cells'
-/// size, begin anew.
+/// smallest number of its place among those that were reached before it. The first one is the lowest; parts of the mesh that are not joined, or only by steps of the
+/// cells' size, begin anew.
 class LayerParity
 {
 public:
-    LayerParity(const polyMesh& mesh, const labelList& keys, int vertical)
-    :   mesh_(mesh), keys_(keys), vertical_(vertical), isStep_(findStepsOfSize(mesh, vertical)), parity_(mesh.nPoints(), -1),
-        offer_(mesh.nPoints(), labelMax)
+    LayerParity(const polyMesh& mesh, int vertical)
+    :   mesh_(mesh), vertical_(vertical), isStep_(findStepsOfSize(mesh, vertical)), parity_(mesh.nPoints(), -1), offer_(mesh.nPoints(), none)
     {
         while (startPart()) while (advance()) {}
     }
@@ -81,21 +97,24 @@ public:
     const labelList& parity() const { return parity_; }
 
 private:
-    /// From the point of the smallest key that has not been reached.
+    static constexpr scalar none = VGREAT;
+
+    /// From the lowest point that has not been reached; of several the first by the other axes.
     bool startPart()
     {
-        label first = labelMax;
-        forAll(parity_, i)
-            if (parity_[i] < 0) first = min(first, keys_[i]);
-        reduce(first, minOp<label>());
+        const int axes[] = {vertical_, (vertical_ + 1) % 3, (vertical_ + 2) % 3};
         front_.clear();
         forAll(parity_, i)
-            if (keys_[i] == first && parity_[i] < 0)
-            {
-                parity_[i] = 0;
-                front_.push_back(i);
-            }
-        return first != labelMax;
+            if (parity_[i] < 0) front_.push_back(i);
+        for (const int axis : axes)
+        {
+            scalar lowest = VGREAT;
+            for (const label i : front_) lowest = min(lowest, mesh_.points()[i][axis]);
+            reduce(lowest, minOp<scalar>());
+            front_.erase(std::remove_if(front_.begin(), front_.end(), [&](label i) { return mesh_.points()[i][axis] > lowest; }), front_.end());
+        }
+        for (const label i : front_) parity_[i] = 0;
+        return returnReduce(!front_.empty(), orOp<bool>());
     }
 
     /// One step from the front to its neighbours.
@@ -107,31 +126,31 @@ private:
             {
                 const label j = mesh_.edges()[e].otherVertex(i);
                 if (parity_[j] >= 0 || isStep_[e]) continue;
-                if (offer_[j] == labelMax) touched.push_back(j);
-                offer_[j] = min(offer_[j], 2*keys_[i] + (parity_[i] ^ label(leadsAcross(mesh_, vertical_, i, j))));
+                if (offer_[j] == none) touched.push_back(j);
+                offer_[j] = min(offer_[j], placeNumber(mesh_.points()[i]) + scalar(parity_[i] ^ label(leadsAcross(mesh_, vertical_, i, j))));
             }
         if (Pstream::parRun())
         {
-            syncTools::syncPointList(mesh_, offer_, minEqOp<label>(), labelMax);
+            syncTools::syncPointList(mesh_, offer_, minEqOp<scalar>(), none);
             for (const label i : mesh_.globalData().coupledPatch().meshPoints())
-                if (offer_[i] != labelMax) touched.push_back(i);
+                if (offer_[i] != none) touched.push_back(i);
         }
         front_.clear();
         for (const label i : touched)
         {
-            if (offer_[i] == labelMax) continue;    // twice among them: shared with another process
-            parity_[i] = offer_[i] & 1;
-            offer_[i] = labelMax;
+            if (offer_[i] == none) continue;    // twice among them: shared with another process
+            parity_[i] = label(std::int64_t(offer_[i]) & 1);
+            offer_[i] = none;
             front_.push_back(i);
         }
         return returnReduce(!front_.empty(), orOp<bool>());
     }
 
     const polyMesh& mesh_;
-    const labelList& keys_;
     const int vertical_;
     const boolList isStep_;
-    labelList parity_, offer_;      // offer: twice the key it comes from, and the parity
+    labelList parity_;
+    scalarList offer_;      // number of the place it comes from, plus the parity
     std::vector<label> front_;
 };
 
@@ -139,14 +158,14 @@ private:
 
 labelList splitOrder(const polyMesh& mesh, const labelList& keys, int vertical)
 {
-    const LayerParity layers(mesh, keys, vertical);
+    const LayerParity layers(mesh, vertical);
     const labelList& parity = layers.parity();
     const int a = (vertical + 1) % 3, b = (vertical + 2) % 3;
-    std::vector<std::tuple<label, scalar, label>> rank;
+    std::vector<std::tuple<label, scalar, scalar, scalar, label>> rank;
     forAll(parity, i)
     {
         const point& x = mesh.points()[i];
-        rank.emplace_back(parity[i], x[min(a, b)] + (parity[i] ? -second : second)*x[max(a, b)], keys[i]);
+        rank.emplace_back(parity[i], x[min(a, b)] + (parity[i] ? -second : second)*x[max(a, b)], x[vertical], x[a], keys[i]);
     }
     std::vector<label> sorted(rank.size());
     for (std::size_t i = 0; i < sorted.size(); ++i) sorted[i] = label(i);

@@ -2,18 +2,22 @@
 /// The meshes of support/makeMeshCases.sh, read whole by every rank and decomposed by all of them.
 #include "algebra/halo.hpp"
 #include "foam/meshAdapter.H"
+#include "foam/splitOrder.H"
 #include "support/meshChecks.hpp"
 #include "support/near.hpp"
 
 #include "Time.H"
 #include "argList.H"
+#include "ListOps.H"
 #include "cellModel.H"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
+#include <utility>
 
 using namespace flotsam;
 
@@ -355,6 +359,29 @@ TEST_CASE("without the numbers of the undecomposed mesh the ranks still agree on
     CHECK(found.nodes == expected.nodes);
     CHECK(found.volume == near(expected.volume, 1e-14)); // the same diagonals of warped faces
     CHECK(found.patchArea[0] == near(expected.patchArea[0], 1e-14)); // a plane one
+}
+
+TEST_CASE("diagonals do not depend on how the points are numbered: whoever made the mesh, and on whatever processes")
+{
+    for (const std::string name : {"obstacle", "boxed3D", "skewed", "snapped"})
+    {
+        CAPTURE(name);
+        const FoamMesh whole(name, MPI_COMM_SELF);
+        const Foam::polyMesh& mesh = whole.foam();
+        const Foam::label n = mesh.nPoints(), stride = 7919;    // a prime, which divides none of these n
+        Foam::labelList numbers(n);
+        forAll(numbers, i) numbers[i] = Foam::label((std::int64_t(i)*stride + 17) % n);
+        Foam::pointField points(n);
+        forAll(points, i) points[numbers[i]] = mesh.points()[i];
+        Foam::faceList faces(mesh.faces());
+        for (Foam::face& f : faces) Foam::inplaceRenumber(numbers, f);
+        const bool wasParallel = std::exchange(Foam::UPstream::parRun(), false);
+        const Foam::polyMesh renumbered(Foam::IOobject("renumbered", mesh.time().timeName(), mesh.time(), Foam::IOobject::NO_READ, Foam::IOobject::NO_WRITE, false), std::move(points),
+            std::move(faces), Foam::labelList(mesh.faceOwner()), Foam::labelList(mesh.faceNeighbour()), false);
+        const Foam::labelList before = splitOrder(mesh, Foam::identity(n), 1), after = splitOrder(renumbered, Foam::identity(n), 1);
+        Foam::UPstream::parRun() = wasParallel;
+        CHECK(Foam::labelList(Foam::UIndirectList<Foam::label>(after, numbers)) == before);
+    }
 }
 
 TEST_CASE("meshes that cannot be solved are refused with the reason")
