@@ -221,13 +221,20 @@ private:
         return trial_.empty() || hasRepeatedRim() ? -VGREAT : smallest;
     }
 
+    /// The point of lowest order first: how cut elements are divided goes by the order of their corners, which must not be that in which the face has its points.
+    Triangle fromLowest(Triangle t) const
+    {
+        std::rotate(t.begin(), std::min_element(t.begin(), t.end(), [&](int a, int b) { return order_[a] < order_[b]; }), t.end());
+        return t;
+    }
+
     scalar joinFace(label facei, bool isOwner, int apex, const point& x)
     {
         const pointField& p = mesh_.points();
         scalar smallest = VGREAT;
         for (int k = faces_.start[facei]; k < faces_.start[facei + 1]; ++k)
         {
-            const Triangle& t = faces_.triangles[k];
+            const Triangle t = fromLowest(faces_.triangles[k]);
             const int b = t[isOwner ? 1 : 2], c = t[isOwner ? 2 : 1];
             smallest = min(smallest, (((p[t[0]] - x) ^ (p[b] - x)) & (p[c] - x)) / 6);
             trial_.push_back({apex, t[0], b, c});

@@ -2,6 +2,7 @@
 /// The meshes of support/makeMeshCases.sh, read whole by every rank and decomposed by all of them.
 #include "algebra/halo.hpp"
 #include "foam/meshAdapter.H"
+#include "foam/simplexSplit.H"
 #include "foam/splitOrder.H"
 #include "support/meshChecks.hpp"
 #include "support/near.hpp"
@@ -44,10 +45,7 @@ int sizeOf(MPI_Comm comm)
 void startFoam()
 {
     static Foam::argList* args = nullptr;
-    if (args)
-    {
-        return;
-    }
+    if (args) return;
     const int size = sizeOf(MPI_COMM_WORLD);
     static std::string words[4] = {"test", "-case", caseFolder + "/obstacle.np" + std::to_string(size), "-parallel"};
     static char* pointers[5] = {&words[0][0], &words[1][0], &words[2][0], &words[3][0], nullptr};
@@ -183,14 +181,8 @@ bool isConforming(const SimplexMesh& mesh)
 double totalVolumeError(const Foam::polyMesh& foam, const SimplexMesh& mesh)
 {
     double exact = 0, found = 0;
-    for (const double volume : foam.cellVolumes())
-    {
-        exact += volume;
-    }
-    for (const double volume : mesh.volume)
-    {
-        found += volume * mesh.thickness;
-    }
+    for (const double volume : foam.cellVolumes()) exact += volume;
+    for (const double volume : mesh.volume) found += volume * mesh.thickness;
     return std::abs(found - exact) / exact;
 }
 
@@ -199,10 +191,7 @@ double totalVolumeError(const Foam::polyMesh& foam, const SimplexMesh& mesh)
 double warpedVolume(const Foam::polyMesh& foam)
 {
     double total = 0, warped = 0;
-    for (const double volume : foam.cellVolumes())
-    {
-        total += volume;
-    }
+    for (const double volume : foam.cellVolumes()) total += volume;
     const Foam::pointField& x = foam.points();
     for (Foam::label k = foam.nInternalFaces(); k < foam.nFaces(); ++k)
     {
@@ -361,9 +350,9 @@ TEST_CASE("without the numbers of the undecomposed mesh the ranks still agree on
     CHECK(found.patchArea[0] == near(expected.patchArea[0], 1e-14)); // a plane one
 }
 
-TEST_CASE("diagonals do not depend on how the points are numbered: whoever made the mesh, and on whatever processes")
+TEST_CASE("diagonals, elements and the order of their corners do not depend on numbers of points and where faces begin: whoever made the mesh, and on whatever processes")
 {
-    for (const std::string name : {"obstacle", "boxed3D", "skewed", "snapped"})
+    for (const std::string name : {"obstacle", "boxed3D", "skewed", "snapped", "hanging"})
     {
         CAPTURE(name);
         const FoamMesh whole(name, MPI_COMM_SELF);
@@ -375,12 +364,23 @@ TEST_CASE("diagonals do not depend on how the points are numbered: whoever made 
         forAll(points, i) points[numbers[i]] = mesh.points()[i];
         Foam::faceList faces(mesh.faces());
         for (Foam::face& f : faces) Foam::inplaceRenumber(numbers, f);
+        for (Foam::face& f : faces) std::rotate(f.begin(), f.begin() + 1, f.end());
         const bool wasParallel = std::exchange(Foam::UPstream::parRun(), false);
-        const Foam::polyMesh renumbered(Foam::IOobject("renumbered", mesh.time().timeName(), mesh.time(), Foam::IOobject::NO_READ, Foam::IOobject::NO_WRITE, false), std::move(points),
+        Foam::polyMesh other(Foam::IOobject("renumbered", mesh.time().timeName(), mesh.time(), Foam::IOobject::NO_READ, Foam::IOobject::NO_WRITE, false), std::move(points),
             std::move(faces), Foam::labelList(mesh.faceOwner()), Foam::labelList(mesh.faceNeighbour()), false);
-        const Foam::labelList before = splitOrder(mesh, Foam::identity(n), 1), after = splitOrder(renumbered, Foam::identity(n), 1);
-        Foam::UPstream::parRun() = wasParallel;
+        Foam::PtrList<Foam::polyPatch> sides(1);
+        sides.set(0, new Foam::polyPatch("sides", mesh.nFaces() - mesh.nInternalFaces(), mesh.nInternalFaces(), 0, other.boundaryMesh(), "patch"));
+        other.addPatches(sides, false);
+        const Foam::labelList before = splitOrder(mesh, Foam::identity(n), 1), after = splitOrder(other, Foam::identity(n), 1);
         CHECK(Foam::labelList(Foam::UIndirectList<Foam::label>(after, numbers)) == before);
+        if (name != "obstacle")     // a plane one
+        {
+            const Foam::labelList noPatches(mesh.nFaces() - mesh.nInternalFaces(), -1);
+            std::vector<int> expected = splitIntoTetrahedra(mesh, before, noPatches).elements;
+            for (int& vertex : expected) vertex = vertex < n ? numbers[vertex] : vertex;
+            CHECK(splitIntoTetrahedra(other, after, noPatches).elements == expected);
+        }
+        Foam::UPstream::parRun() = wasParallel;
     }
 }
 
