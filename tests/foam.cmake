@@ -18,6 +18,7 @@ flotsam_test(foamPlacement unit SOURCES unit/foamPlacement.C LIBRARIES flotsam_f
 flotsam_test(foamVariation unit SOURCES unit/foamVariation.C LIBRARIES flotsam_foam_test flotsam_dem_foam RANKS 1 2)
 flotsam_test(foamBodiesMessages unit SOURCES unit/foamBodiesMessages.C LIBRARIES flotsam_foam_test flotsam_dem_foam RANKS 1 2)
 flotsam_test(foamRestraints unit SOURCES unit/foamRestraints.C LIBRARIES flotsam_foam_test flotsam_dem_foam RANKS 1 2)
+flotsam_test(foamRestraintChain unit SOURCES unit/foamRestraintChain.C LIBRARIES flotsam_foam_test flotsam_dem_foam RANKS 1 2)
 flotsam_test(foamCaseCheck unit SOURCES unit/foamCaseCheck.C LIBRARIES flotsam_foam_test)
 flotsam_test(foamOtherInput unit SOURCES unit/foamOtherInput.C LIBRARIES flotsam_foam_test RANKS 1 2)
 flotsam_test(foamWallForces unit SOURCES unit/foamWallForces.C LIBRARIES flotsam_foam_test RANKS 1 2)

@@ -315,10 +315,11 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
     addMovers(dict, frame, groups, input);
     placeAll(groups, frame, obstacles);
     for (BodyGroup& group : groups)
-        for (BodyDefinition& body : group.members)
+        for (std::size_t i = 0; i < group.members.size(); ++i)
         {
             input.bodyGroups.push_back(group.name);
-            input.bodies.push_back(std::move(body));
+            input.givenFrames.push_back(group.kindOf(i).prototype.pose);
+            input.bodies.push_back(std::move(group.members[i]));
         }
     checkMembersDiffer(dict, input.bodies, "bodies", [](const BodyDefinition& b) { return b.name; });
     input.restraints = readRestraints(dict, frame, input);

@@ -67,7 +67,7 @@ std::string undamped(const RestraintDefinition& r, const BodiesInput& input, dou
 
 std::vector<std::string> doubtfulRestraints(const BodiesInput& input, double startTime, double deltaT)
 {
-    std::vector<std::string> doubts;
+    std::vector<std::string> doubts = input.doubts;
     for (const RestraintDefinition& r : input.restraints)
     {
         const std::string beside = besideBody(r, input);
