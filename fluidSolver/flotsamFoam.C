@@ -16,6 +16,7 @@
 #include "foam/cellCost.H"
 #include "foam/dictionaryChecks.H"
 #include "foam/editedControls.H"
+#include "foam/endOnErrors.H"
 #include "foam/fieldIO.H"
 #include "foam/laterTimes.H"
 #include "foam/otherInput.H"
@@ -34,6 +35,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace flotsam
 {
@@ -301,7 +303,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
 
         output.record(step, result, limit, rates*used);
         if (!wallForces.empty()) forceFiles.write(runTime.value(), used, step.fluid().patchForces(), contactForces(dem.wallGroups, step.coupling()));
-        if (!time.adjustTimeStep) output.watchCourant(step, courantRates(step, 0)*used, used);
+        if (!time.adjustTimeStep || std::max(time.maxCo, time.maxBodyCo) > RunLog::largeCourant) output.watchCourant(step, courantRates(step, 0)*used, used, time);
         const double endTime = runTime.endTime().value(); // a signal changes it
         if (write(runTime, halo, step, fields, output, timers, dt)) isComplete = runTime.value() > endTime - 0.5*used;
     }
@@ -331,6 +333,8 @@ int main(int argc, char* argv[])
     Foam::argList args(argc, argv);
     if (!args.checkRootCase()) Foam::FatalError.exit();
 
+    flotsam::endOnErrors();
+    const auto end = [](const std::exception& error) { FatalErrorInFunction << error.what() << Foam::exit(Foam::FatalError); };
     try
     {
         flotsam::checkFileHandler();
@@ -347,9 +351,7 @@ int main(int argc, char* argv[])
         if (flotsam::run(runTime, mesh, args.found("dry-run") ? Task::Check : args.found("cell-cost") ? Task::WeighCells : Task::Run))
             Foam::Info<< "End\n" << Foam::endl;
     }
-    catch (const std::exception& error)
-    {
-        FatalErrorInFunction << error.what() << Foam::exit(Foam::FatalError);
-    }
+    catch (const std::runtime_error& error) { end(error); }     // not OpenFOAM's, see endOnErrors
+    catch (const std::logic_error& error) { end(error); }
     return 0;
 }

@@ -2,6 +2,7 @@
 #include "demCoupling/foam/bodyChecks.H"
 
 #include "demCoupling/foam/continuedMotion.H"
+#include "demCoupling/foam/motionChecks.H"
 #include "foam/dictionaryChecks.H"
 #include "io/runLog.hpp"
 
@@ -147,6 +148,8 @@ std::vector<std::string> doubtfulBodies(const BodiesInput& input, const FluidPro
     if (const auto law = std::find_if(input.laws.begin(), input.laws.end(), isCoefficient); law != input.laws.end())
         doubts.push_back(text("frictionAngle ", law->frictionAngleDeg, " of constant/bodies is in degrees, a friction coefficient of ", std::tan(law->frictionAngleDeg*M_PI/180),
             ": for a coefficient of ", law->frictionAngleDeg, " give ", std::atan(law->frictionAngleDeg)*180/M_PI));
+
+    for (const std::string& doubt : doubtfulMotions(input, gravity, endTime)) doubts.push_back(doubt);
 
     if (const std::string edges = roundedEdges(input); !edges.empty()) doubts.push_back(edges);
 

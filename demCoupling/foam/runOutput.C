@@ -153,15 +153,17 @@ void RunOutput::record(const CoupledStep& step, const StepResult& result, const 
     for (const std::string& waiting : result.waiting) Foam::Info<< waiting.c_str() << Foam::endl;
 }
 
-void RunOutput::watchCourant(const CoupledStep& step, const CourantNumbers& courant, double dt)
+void RunOutput::watchCourant(const CoupledStep& step, const CourantNumbers& courant, double dt, const TimeControls& time)
 {
     const double largest = std::max(courant.largest, courant.bodies);
     if (largest <= RunLog::largeCourant || ++longSteps_ > 1) return;
     const auto [solid, speed] = step.fastestSolid(0);
     const std::string fastest = courant.bodies > courant.largest ? text("the surface of ", solid, " moves with ", speed, " m/s") : step.fluid().describeFastest();
-    Foam::Info<< text("Warning: t = ", runTime_.value(), " s: the step of ", dt, " s, given by deltaT with adjustTimeStep no, has a Courant number of ", largest, ": ", fastest,
-        ". A dam break with such steps is wrong by a tenth and more (docs/resolution.md). Set adjustTimeStep yes (maxCo ", TimeControls().maxCo, ") in system/controlDict, or a deltaT of ", RunLog::largeCourant*dt/largest,
-        " s at most").c_str() << Foam::endl;
+    const std::string given = time.adjustTimeStep ? text("allowed by maxCo ", time.maxCo, " and maxBodyCo ", time.maxBodyCo) : "given by deltaT with adjustTimeStep no",
+        advice = time.adjustTimeStep ? text("Set maxCo and maxBodyCo ", TimeControls().maxCo, " in system/controlDict")
+            : text("Set adjustTimeStep yes (maxCo ", TimeControls().maxCo, ") in system/controlDict, or a deltaT of ", RunLog::largeCourant*dt/largest, " s at most");
+    Foam::Info<< text("Warning: t = ", runTime_.value(), " s: the step of ", dt, " s, ", given, ", has a Courant number of ", largest, ": ", fastest,
+        ". A dam break with such steps is wrong by a tenth and more (docs/resolution.md). ", advice).c_str() << Foam::endl;
 }
 
 /// Once.

@@ -7,6 +7,7 @@
 #include "foam/patchNodes.H"
 #include "foam/startReport.H"
 #include "geometry/shape.hpp"
+#include "io/runLog.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -84,6 +85,7 @@ void printCost(const MeshCounts& counts, const SimplexMesh& mesh, const SceneCou
     line("time per step", text("about ", std::round(seconds*1000)/1000, " s (estimate for one core per rank)"));
 }
 
+constexpr double furthestOfBodies = 2;   // elements in a step
 constexpr double roundOff = 1e-6;   // of gravity's direction
 
 double strength(const std::array<double, 3>& g) { return std::hypot(g[0], g[1], g[2]); }
@@ -98,6 +100,8 @@ std::string gravityWarning(const FluidProperties& fluid, const SimplexMesh& mesh
     if (strength(g) == 0) return fluid.isTwoPhase ? "constant/g is (0 0 0): nothing keeps the lighter fluid above" : "";
     for (const auto& [unit, factor] : {std::pair("cm", 100), std::pair("mm", 1000)})
         if (std::abs(strength(g) - 9.81*factor) < 0.005*9.81*factor) return text("constant/g has ", strength(g), " m/s^2, which is the earth's gravity in ", unit, "/s^2. Units are SI, lengths in m");
+    for (const double factor : {0.1, 10.0})
+        if (std::abs(strength(g) - 9.81*factor) < 0.005*9.81*factor) return text("constant/g has ", strength(g), " m/s^2, ", factor, " times the earth's: is the decimal point where it belongs?");
     if (across(g, mesh) > roundOff*strength(g))
         return text("gravity acts along ", "xyz"[mesh.axes[2]], ", across this 2D mesh: that part does nothing. Give constant/g in the plane of the mesh");
     return "";
@@ -162,6 +166,37 @@ void checkGravity(const FluidProperties& fluid, const SimplexMesh& mesh)
         " fluid above.\n    Give it in the plane of the mesh, for instance (", meant[0], ' ', meant[1], ' ', meant[2], "); where none is meant (0 0 0)."));
 }
 
+std::vector<std::string> doubtfulSteps(const TimeControls& time)
+{
+    std::vector<std::string> doubts;
+    if (!time.adjustTimeStep) return doubts;    // deltaT is seen while the run goes on
+    if (time.maxCo > RunLog::largeCourant)
+        doubts.push_back(text("maxCo ", time.maxCo, " of system/controlDict lets the water cross ", time.maxCo, " elements in a step: a dam break with more than ", RunLog::largeCourant,
+            " is wrong by a tenth and more (docs/resolution.md). The default is ", TimeControls().maxCo));
+    if (time.maxBodyCo > furthestOfBodies)
+        doubts.push_back(text("maxBodyCo ", time.maxBodyCo, " of system/controlDict lets a body cross ", time.maxBodyCo, " elements in a step, behind which it leaves what it has not pushed aside. The default is ", TimeControls().maxBodyCo));
+    return doubts;
+}
+
+std::string doubtfulLevel(const CaseControls& controls, const SimplexMesh& mesh, const Halo& halo)
+{
+    const auto& g = controls.fluid.gravity;
+    if (strength(g) == 0) return "";
+    double low = 1e300, high = -1e300;  // heights of the mesh
+    for (int node = 0; node < mesh.nNodes; ++node)
+    {
+        const auto x = mesh.spacePoint(node);
+        const double height = -(g[0]*x[0] + g[1]*x[1] + g[2]*x[2])/strength(g);
+        low = std::min(low, height);
+        high = std::max(high, height);
+    }
+    low = 0 - halo.max(-low);   // no -0
+    high = halo.max(high);
+    const double level = -controls.gravityPotentialRef/strength(g), range = high - low;
+    if (level >= low - range && level <= high + range) return "";
+    return text("constant/hRef is ", level, " m, and the mesh reaches from ", low, " to ", high, " m in height: where p_rgh is prescribed water presses as from that level. Lengths are in m");
+}
+
 std::string describe(const TimeControls& time)
 {
     if (!time.adjustTimeStep) return text("fixed, ", time.deltaT, " s");
@@ -185,7 +220,9 @@ void printCaseCheck(const CaseControls& controls, const MeshAdapter& adapter, co
     for (const std::string& doubt : doubtfulFluids(controls)) line("warning", doubt);
     line("structures", structuresLine(scene));
     line("bodies", bodiesLine(scene));
+    if (const std::string level = doubtfulLevel(controls, mesh, halo); !level.empty()) line("warning", level);
     line("time step", describe(controls.time));
+    for (const std::string& doubt : doubtfulSteps(controls.time)) line("warning", doubt);
     const std::string changed = changedNumerics(controls.numerics);
     line("numerics", text(changed.empty() ? "all entries of `flotsam` have their defaults" : "defaults, but " + changed, "; solvers, PIMPLE (pRefValue excepted) and fvSchemes are not used"));
     if (const std::string idle = idleWallLaw(controls.numerics, boundary); !idle.empty()) line("warning", idle);

@@ -2,11 +2,11 @@
 #include "foam/controlsReader.H"
 #include "foam/dictionaryChecks.H"
 #include "foam/otherInput.H"
+#include "foam/transportReader.H"
 
 #include "IFstream.H"
 #include "IOdictionary.H"
 #include "OSspecific.H"
-#include "dimensionedTypes.H"
 #include "uniformDimensionedFields.H"
 
 #include <algorithm>
@@ -93,72 +93,6 @@ void readEntry(const Foam::dictionary& dict, const ControlEntry& entry, Numerics
         bool& flag = numerics.*std::get<bool NumericsControls::*>(entry.member);
         flag = readFlagOr(dict, entry.keyword, flag);
     }
-}
-
-double readDimensioned(const Foam::dictionary& dict, const char* keyword, const Foam::dimensionSet& dims)
-{
-    const std::string what = text("a number ", toString(positive));
-    const Foam::ITstream& given = valueOf(dict, keyword, what); // also with dimensions before it
-    if (given.empty() || !given.last().isNumber()) failValue(dict, keyword, what);
-    const double value = Foam::dimensionedScalar(keyword, dims, dict).value();
-    checkRange(dict, keyword, value, positive);
-    return value;
-}
-
-void checkNewtonian(const Foam::dictionary& dict)
-{
-    const std::string model = readWordOr(dict, "transportModel", "Newtonian");
-    if (model != "Newtonian")
-        failIn(dict, text("transportModel ", model, " is not modelled; allowed: Newtonian. Give a constant nu."));
-}
-
-void warnSurfaceTension(double sigma)
-{
-    Foam::Info << "Warning: surface tension sigma = " << sigma << " N/m is ignored: not modelled "
-               << "(negligible when waves and bodies are much larger than some millimetres)" << Foam::nl;
-}
-
-void readTwoFluids(const Foam::dictionary& transport, CaseControls& controls)
-{
-    const std::vector<std::string> phases = readWords(transport, "phases");
-    if (phases.size() != 2)
-        failIn(transport, text("Entry 'phases' lists ", phases.size(), " names; give two: (liquid gas), the liquid first."));
-    FluidProperties& fluid = controls.fluid;
-    double* rho[2] = {&fluid.rhoLiquid, &fluid.rhoGas};
-    double* mu[2] = {&fluid.muLiquid, &fluid.muGas};
-    for (int i = 0; i < 2; ++i)
-    {
-        if (!transport.isDict(phases[i])) failIn(transport, text("Entry 'phases' names ", phases[i], ", of which there is no dictionary: ", phases[i], " { transportModel Newtonian; nu ..; rho ..; }"));
-        const Foam::dictionary& phase = subGroup(transport, phases[i]);
-        checkNewtonian(phase);
-        *rho[i] = readDimensioned(phase, "rho", Foam::dimDensity);
-        *mu[i] = *rho[i]*readDimensioned(phase, "nu", Foam::dimViscosity);
-    }
-    if (fluid.rhoLiquid < fluid.rhoGas)
-        failIn(transport, text("The first of 'phases', ", phases[0], " (rho ", fluid.rhoLiquid, "), is lighter than ", phases[1],
-            " (rho ", fluid.rhoGas, "): list the liquid first, and set alpha.", phases[1], " accordingly."));
-    fluid.isTwoPhase = true;
-    controls.liquidName = phases[0];
-    controls.alphaName = "alpha." + phases[0];
-    fluid.sigma = Foam::dimensionedScalar("sigma", Foam::dimensionSet(1, 0, -2, 0, 0), 0.0, transport).value();
-    if (fluid.sigma != 0) warnSurfaceTension(fluid.sigma);
-}
-
-void readOneFluid(const Foam::dictionary& transport, CaseControls& controls)
-{
-    checkNewtonian(transport);
-    if (!transport.found("nu"))
-        failIn(transport, "Neither 'phases' nor 'nu' is given: use 'phases (water air)' with their sub-dictionaries (as interFoam), "
-            "or 'nu' and 'rho' of a single fluid.");
-    FluidProperties& fluid = controls.fluid;
-    controls.hasDensity = transport.found("rho");
-    fluid.rhoLiquid = controls.hasDensity ? readDimensioned(transport, "rho", Foam::dimDensity) : 1;
-    fluid.muLiquid = fluid.rhoLiquid*readDimensioned(transport, "nu", Foam::dimViscosity);
-    fluid.isTwoPhase = false;
-    fluid.rhoGas = fluid.rhoLiquid;
-    fluid.muGas = fluid.muLiquid;
-    if (!controls.hasDensity)
-        Foam::Info << "transportProperties gives no rho: density 1 kg/m^3, pressures are kinematic (as icoFoam)" << Foam::nl;
 }
 
 Foam::IOobject inputFile(const Foam::Time& runTime, const char* name, const Foam::fileName& folder)

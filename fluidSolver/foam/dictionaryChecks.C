@@ -3,15 +3,12 @@
 
 #include "ITstream.H"
 #include "OStringStream.H"
-#include "Pstream.H"
 #include "Switch.H"
 #include "error.H"
 #include "wordList.H"
 
 #include <algorithm>
 #include <cctype>
-#include <chrono>
-#include <thread>
 
 namespace flotsam
 {
@@ -19,19 +16,10 @@ namespace flotsam
 namespace
 {
 
-/// In parallel every rank finds the same mistake. The first, which alone knows file and line, says it and ends the run; the others leave it the time to.
-void letMasterSpeak()
-{
-    const bool isCaught = Foam::FatalIOError.throwExceptions();
-    Foam::FatalIOError.throwExceptions(isCaught);
-    if (!isCaught && Foam::Pstream::parRun() && !Foam::Pstream::master()) std::this_thread::sleep_for(std::chrono::seconds(5));
-}
-
 /// Place: a dictionary, or the stream of an entry, which knows its line.
 template<class Place>
 [[noreturn]] void failAt(const Place& place, const std::string& message)
 {
-    letMasterSpeak();
     FatalIOErrorInFunction(place) << message.c_str() << Foam::nl << Foam::exit(Foam::FatalIOError);
     throw std::logic_error(message); // never reached: exit() ends the run or throws
 }
@@ -42,7 +30,6 @@ void failIn(const Foam::dictionary& dict, const std::string& message) { failAt(d
 
 void failOnAll(const std::string& message)
 {
-    letMasterSpeak();
     FatalErrorInFunction << message.c_str() << Foam::nl << Foam::exit(Foam::FatalError);
     throw std::logic_error(message); // never reached
 }

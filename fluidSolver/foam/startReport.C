@@ -13,6 +13,7 @@ namespace
 {
 
 constexpr double lightestLiquid = 50;   // hydrogen: 71 kg/m^3
+constexpr double thinnestLiquid = 5e-5; // [Pa s]: carbon dioxide under pressure 7e-5
 constexpr double thickGas = 10;         // viscosity over the liquid's: more than dense vapours have
 
 std::string vectorText(const std::array<double, 3>& v, double factor)
@@ -31,6 +32,8 @@ std::vector<std::string> doubtfulFluids(const CaseControls& controls)
         doubts.push_back(text("both fluids have the density ", f.rhoLiquid, " kg/m^3: gravity keeps no surface between them. Is that meant? Water has rho 1000, air 1.2"));
     else if (f.rhoLiquid < lightestLiquid)
         doubts.push_back(text("rho of ", controls.liquidName, " is ", f.rhoLiquid, " kg/m^3, less than that of any liquid. Densities are in kg/m^3, not in g/cm^3 or over water's: water has 1000, air 1.2"));
+    else if (f.muLiquid < thinnestLiquid)
+        doubts.push_back(text("rho nu of ", controls.liquidName, " is ", f.muLiquid, " Pa s, less than that of any liquid. Is `nu` in m^2/s? Water has 1e-6, which makes 1e-3 Pa s"));
     if (f.muGas > thickGas*f.muLiquid)
         doubts.push_back(text("the gas is far more viscous than ", controls.liquidName, ": rho nu is ", f.muGas, " and ", f.muLiquid, " Pa s. Is `nu` kinematic, in m^2/s? Air has 1.5e-5, water 1e-6"));
     return doubts;

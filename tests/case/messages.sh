@@ -32,6 +32,7 @@ refused() {
 
 refused keyword 'setNumerics . "nitscheGama 10;"' \
     fvSolution nitscheGama nitscheGamma
+refused dimensions 'sed -i "s/nu .*/nu [1 -1 -1 0 0 0 0] 1e-3;/" constant/transportProperties' transportProperties.water.nu "behind the dimensions \[0 2 -1 0 0 0 0\]: it is the kinematic viscosity"
 refused range 'setNumerics . "tolerance -1;"' \
     fvSolution tolerance -1
 refused gravityAcross 'sed -i "s/(0 -9.81 0)/(0 0 -9.81)/" constant/g' 'constant/g is (0 0 -9.81), along z' 'for instance (0 -9.81 0)'

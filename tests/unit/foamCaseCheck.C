@@ -87,6 +87,48 @@ TEST_CASE("densities in other units, fluids of one density, viscosities")
     CHECK(doubts(1.2, 1.2, false).empty());         // air
     CHECK(doubts(1000, 1.2, true, 1e-6, 1.5e5).find("the gas is far more viscous than water: rho nu is 180000 and 0.001 Pa s") == 0);
     CHECK(doubts(1000, 1.2, true, 1e-3, 1.5e-5).empty());   // a thick oil, or a dynamic viscosity
+    CHECK(doubts(1000, 1.2, true, 1e-9, 1e-8).find("rho nu of water is 1e-06 Pa s, less than that of any liquid") == 0);
+}
+
+TEST_CASE("steps beyond sense, a reference level far from the mesh, a gravity that is not the earth's")
+{
+    TimeControls time;
+    time.adjustTimeStep = true;
+    time.maxCo = 5;
+    time.maxBodyCo = 1;
+    CHECK(doubtfulSteps(time).empty());
+    time.maxCo = 500;
+    time.maxBodyCo = 20;
+    const auto doubts = doubtfulSteps(time);
+    REQUIRE(doubts.size() == 2);
+    CHECK(doubts[0].find("maxCo 500 of system/controlDict lets the water cross 500 elements in a step") == 0);
+    CHECK(doubts[1].find("maxBodyCo 20 of system/controlDict lets a body cross 20 elements") == 0);
+    time.adjustTimeStep = false;    // they are not used
+    CHECK(doubtfulSteps(time).empty());
+
+    FoamCase foam("foamChannel");
+    CaseControls controls = readCaseControls(foam.time());
+    const MeshAdapter adapter = makeSimplexMesh(foam.mesh(), MPI_COMM_WORLD);
+    const Halo halo(adapter.mesh, MPI_COMM_WORLD);
+    const auto level = [&](double hRef) { controls.gravityPotentialRef = controls.fluid.gravity[1]*hRef; return doubtfulLevel(controls, adapter.mesh, halo); };
+    CHECK(level(0).empty());
+    CHECK(level(0.7).empty());      // the mesh is 1 m high
+    CHECK(level(300).find("constant/hRef is 300 m, and the mesh reaches from 0 to 1 m in height") == 0);
+
+    const auto boundary = readBoundary(foam.mesh(), adapter, halo, controls);
+    const auto report = [&](double g)
+    {
+        controls.fluid.gravity = {0, -g, 0};
+        std::ostringstream said;
+        auto* screen = std::cout.rdbuf(said.rdbuf());
+        printCaseCheck(controls, adapter, halo, boundary, SceneCounts());
+        std::cout.rdbuf(screen);
+        return said.str();
+    };
+    CHECK(report(9.81).find("times the earth's") == std::string::npos);
+    CHECK(report(1.62).find("times the earth's") == std::string::npos);     // the moon's
+    CHECK(report(98.1).find("constant/g has 98.1 m/s^2, 10 times the earth's") != std::string::npos);
+    CHECK(report(0.981).find("constant/g has 0.981 m/s^2, 0.1 times the earth's") != std::string::npos);
 }
 
 TEST_CASE("patches of type patch that are walls to the fluid alone")
