@@ -3,6 +3,7 @@
 #include "foam/criticalLevel.H"
 #include "foam/dictionaryChecks.H"
 #include "foam/faceValues.H"
+#include "foam/fieldEntry.H"
 #include "foam/innerPoints.H"
 
 #include "equations/materials.hpp"
@@ -35,6 +36,17 @@ void checkNoUnit(const Foam::dictionary& dict, const char* keyword)
     if (value.size() > number + 1 && value[number].isNumber()) failValue(dict, keyword, "a number, or a Function1 (table, csv, sine, ...)");
 }
 
+/// All of it stands in the entry: a value, or a table.
+bool isWholeFunction(const Foam::dictionary& dict, const char* keyword)
+{
+    if (dict.isDict(keyword)) return false;
+    const Foam::ITstream& value = dict.lookup(keyword);
+    return value.size() != 1 || !value[0].isWord();
+}
+
+const char* example(scalar) { return "0"; }
+const char* example(const vector&) { return "(0 0 0)"; }
+
 template<class Type>
 TimeFunction<Type> timeFunction(const Foam::dictionary& dict, const char* keyword)
 {
@@ -47,7 +59,8 @@ TimeFunction<Type> timeFunction(const Foam::dictionary& dict, const char* keywor
     catch (const Foam::IOerror&)
     {
         Foam::FatalError.throwExceptions(didThrow);
-        throw; // names file and entry
+        if (!isWholeFunction(dict, keyword)) throw; // something in a group of its own, which the message names
+        failValue(dict, keyword, text("a ", Foam::pTraits<Type>::typeName, ", or a function of time of such values: table ((0 ", example(Type()), ") (10 ", example(Type()), ")), csvFile, .."));
     }
     catch (const Foam::error& error) { mistake = error.message(); } // of a table whose times do not rise, for instance, says neither
     Foam::FatalError.throwExceptions(didThrow);
@@ -69,13 +82,11 @@ using Maker = Condition (*)(const ConditionInput&);
 template<class Condition>
 Condition makeFrom(const std::vector<std::pair<std::string, Maker<Condition>>>& table, const ConditionInput& in)
 {
-    const std::string type = in.dict.get<Foam::word>("type");
     std::vector<std::string> known;
+    for (const auto& [name, make] : table) known.push_back(name);
+    const std::string type = readWord(in.dict, "type", known);
     for (const auto& [name, make] : table)
-    {
         if (name == type) return make(in);
-        known.push_back(name);
-    }
     failNotAvailable(in, type, known);
 }
 
@@ -83,6 +94,7 @@ Condition makeFrom(const std::vector<std::pair<std::string, Maker<Condition>>>& 
 
 std::vector<double> faceScalars(const ConditionInput& in, const char* keyword)
 {
+    checkFieldEntry<scalar>(in.dict, keyword, in.patch.size(), "faces of the patch");
     const Foam::scalarField values(keyword, in.dict, in.patch.size());
     return std::vector<double>(values.begin(), values.end());
 }
@@ -96,6 +108,7 @@ std::vector<double> inPlane(const SimplexMesh& mesh, const vector& v)
 
 std::vector<double> faceVectors(const ConditionInput& in, const char* keyword)
 {
+    checkFieldEntry<vector>(in.dict, keyword, in.patch.size(), "faces of the patch");
     const Foam::vectorField values(keyword, in.dict, in.patch.size());
     std::vector<double> result;
     for (const vector& v : values)
@@ -341,6 +354,7 @@ bool isNoSlipWall(const Foam::dictionary& dict, const Foam::polyPatch& patch)
     if (type == "noSlip" || type == "movingWallVelocity") return true;
     if (type != "fixedValue") return false;
     if (patch.empty()) return true; // this rank has no say
+    checkFieldEntry<vector>(dict, "value", patch.size(), "faces of the patch");
     // looked at without reading the field: OpenFOAM hands a list of values out only once
     Foam::ITstream& value = dict.lookup("value");
     if (value.size() < 2 || !value[0].isWord() || value[0].wordToken() != "uniform") return false;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "foam/boundaryReader.H"
 #include "foam/dictionaryChecks.H"
+#include "foam/fieldEntry.H"
 #include "foam/otherInput.H"
 
 #include "Time.H"
 #include "localIOdictionary.H"
+#include "vector.H"
 
 namespace flotsam
 {
@@ -21,6 +23,8 @@ public:
         mesh_(mesh),
         dict_(Foam::IOobject(name, mesh.time().timeName(), mesh, Foam::IOobject::MUST_READ, Foam::IOobject::NO_WRITE, false), type)
     {
+        type == "volVectorField" ? checkFieldEntry<Foam::vector>(dict_, "internalField", mesh.nCells(), "cells of the mesh")
+                                 : checkFieldEntry<Foam::scalar>(dict_, "internalField", mesh.nCells(), "cells of the mesh");
         const auto strays = strayPatches(subGroup(dict_, "boundaryField"), mesh.boundaryMesh());
         if (!strays.empty())
             Foam::Info<< "Warning: " << mesh.time().timeName() << '/' << name.c_str() << " has conditions for what is no patch of the mesh: " << describeStray(strays, mesh.boundaryMesh()).c_str()
@@ -42,7 +46,7 @@ public:
         return subGroup(boundary, patch.name());
     }
 
-    Foam::dimensionSet dimensions() const { return dict_.get<Foam::dimensionSet>("dimensions"); }
+    Foam::dimensionSet dimensions() const { return readAs<Foam::dimensionSet>(dict_, "dimensions", "dimensions in square brackets, for instance [0 1 -1 0 0 0 0] of a velocity"); }
     const Foam::dictionary& dict() const { return dict_; }
 
 private:

@@ -10,6 +10,7 @@
 #include "uniformDimensionedFields.H"
 
 #include <algorithm>
+#include <memory>
 #include <variant>
 
 namespace flotsam
@@ -105,15 +106,37 @@ bool exists(const Foam::Time& runTime, const char* name)
     return Foam::isFile(runTime.path()/runTime.caseConstant()/name) || Foam::isFile(runTime.path()/runTime.constant()/name);
 }
 
-/// A uniform field of the folder constant, in the right dimensions.
-template<class Field>
-auto readUniform(const Foam::Time& runTime, const char* name, const Foam::dimensionSet& allowed)
+/// What is wrong with a uniform field that OpenFOAM could not read; returns where that is something else.
+template<class T>
+void explain(const Foam::fileName& file, const Foam::dimensionSet& allowed, const std::string& what)
 {
-    const Field field(inputFile(runTime, name, runTime.constant()));
-    if (field.dimensions() != allowed)
-        FatalErrorInFunction << "File " << field.objectPath() << ": dimensions " << toString(field.dimensions()).c_str() << "; allowed: "
+    Foam::IFstream stream(file);
+    Foam::dictionary dict(stream);
+    dict.name() = file;
+    readAs<Foam::dimensionSet>(dict, "dimensions", text("dimensions in square brackets, ", toString(allowed)));
+    readAs<T>(dict, "value", what);
+}
+
+/// A uniform field of the folder constant, in the right dimensions.
+template<class T>
+T readUniform(const Foam::Time& runTime, const char* name, const Foam::dimensionSet& allowed, const std::string& what)
+{
+    const Foam::IOobject file = inputFile(runTime, name, runTime.constant());
+    const bool didThrow = Foam::FatalIOError.throwExceptions();
+    std::unique_ptr<Foam::UniformDimensionedField<T>> field;
+    try { field = std::make_unique<Foam::UniformDimensionedField<T>>(file); }
+    catch (const Foam::IOerror&)
+    {
+        Foam::FatalIOError.throwExceptions(didThrow);
+        const Foam::fileName own = runTime.path()/runTime.constant()/name, shared = runTime.globalPath()/runTime.constant()/name;
+        explain<T>(Foam::isFile(own) ? own : shared, allowed, what);
+        throw;
+    }
+    Foam::FatalIOError.throwExceptions(didThrow);
+    if (field->dimensions() != allowed)
+        FatalErrorInFunction << "File " << field->objectPath() << ": dimensions " << toString(field->dimensions()).c_str() << "; allowed: "
             << toString(allowed).c_str() << "." << Foam::exit(Foam::FatalError);
-    return field.value();
+    return field->value();
 }
 
 void readGravity(const Foam::Time& runTime, CaseControls& controls)
@@ -125,10 +148,10 @@ void readGravity(const Foam::Time& runTime, CaseControls& controls)
                 << "    Give it as interFoam does: dimensions [0 1 -2 0 0 0 0]; value (0 0 -9.81);" << Foam::exit(Foam::FatalError);
         return;
     }
-    const Foam::vector g = readUniform<Foam::uniformDimensionedVectorField>(runTime, "g", Foam::dimAcceleration);
+    const Foam::vector g = readUniform<Foam::vector>(runTime, "g", Foam::dimAcceleration, "a vector in m/s^2, for instance (0 0 -9.81)");
     controls.fluid.gravity = {g.x(), g.y(), g.z()};
     if (!exists(runTime, "hRef")) return;
-    const double hRef = readUniform<Foam::uniformDimensionedScalarField>(runTime, "hRef", Foam::dimLength);
+    const double hRef = readUniform<Foam::scalar>(runTime, "hRef", Foam::dimLength, "a number, the height of a level in m");
     controls.gravityPotentialRef = -Foam::mag(g)*hRef;
 }
 

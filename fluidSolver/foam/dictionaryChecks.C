@@ -163,7 +163,12 @@ std::string written(const Foam::ITstream& value)
 /// The beginning of an entry is what is wanted: what follows belongs to the next, or is a unit.
 bool hasTail(const Foam::ITstream& value)
 {
-    return value.size() > 1 && (value[0].isNumber() || value[0].isWord());
+    static const std::vector<std::string> continued{"uniform", "nonuniform", "constant", "table"};
+    if (value.size() < 2 || !(value[0].isNumber() || value[0].isWord())) return false;
+    if (!value[0].isWord() || std::find(continued.begin(), continued.end(), value[0].wordToken()) == continued.end()) return true;
+    for (Foam::label i = 2; i < value.size(); ++i)
+        if (value[i - 1].isNumber() && value[i].isWord()) return true;
+    return false;
 }
 
 } // namespace

@@ -169,6 +169,24 @@ TEST_CASE("what is not available is refused, with what could be used instead")
     CHECK(has(refused("constant/g", "[0 1 -2 0 0 0 0]", "[0 1 -1 0 0 0 0]"), "[0 1 -1 0 0 0 0]; allowed: [0 1 -2 0 0 0 0]"));
 }
 
+TEST_CASE("values of another kind or number: what the entry is, and what it must be")
+{
+    if (!isSerial()) return;
+    const std::string velocity = "internalField   uniform (0.3 -0.1 0)", top = "type pressureInletOutletVelocity; value uniform (0 0 0)";
+    CHECK(has(refused("0/U", velocity, "internalField uniform 0.3"), "Entry 'internalField' is 'uniform 0.3', but must be 'uniform (0 0 0)', or 'nonuniform List<vector> ..' of one value for each of the 200 cells of the mesh."));
+    CHECK(has(refused("0/U", velocity, "internalField unifrom (0 0 0)"), "Entry 'internalField' is 'unifrom"));
+    CHECK(has(refused("0/U", velocity, "internalField nonuniform List<vector> 2((0 0 0) (1 0 0))"), "has 2 values for the 200 cells of the mesh: the field is of another mesh"));
+    CHECK(has(refused("0/U", velocity + ";", ""), "Entry 'internalField' is missing"));
+    CHECK(has(refused("0/U", "dimensions      [0 1 -1 0 0 0 0];", ""), "Entry 'dimensions' is missing"));
+    CHECK(has(refused("0/U", top, "type fixedValue; value uniform 3"), "Entry 'value' is 'uniform 3', but must be 'uniform (0 0 0)'"));
+    CHECK(has(refused("0/U", top, "type fixedValue"), "Entry 'value' is missing"));
+    CHECK(has(refused("0/U", top, "value uniform (0 0 0)"), "Entry 'type' is missing: it must be one of: fixedValue"));
+    CHECK(has(refused("0/U", top, "type uniformFixedValue; uniformValue table ((0 1) (1 2))"), "Entry 'uniformValue' is 'table ( ( 0 1 ) ( 1 2 ) )', but must be a vector, or a function of time"));
+    CHECK(has(refused("0/p_rgh", "p0 uniform 3", "p0 uniform (0 0 0)"), "Entry 'p0' is 'uniform ( 0 0 0 )', but must be 'uniform 0'"));
+    CHECK(has(refused("constant/g", "[0 1 -2 0 0 0 0]", "ms"), "Entry 'dimensions' is 'ms'"));
+    CHECK(has(refused("constant/g", "value", "valu"), "Entry 'value' is missing: it must be a vector in m/s^2"));
+}
+
 TEST_CASE("combinations: prescribed velocity and prescribed pressure do not go together, everything else does")
 {
     if (!isSerial()) return;
