@@ -339,7 +339,8 @@ int main(int argc, char* argv[])
     {
         flotsam::checkFileHandler();
         const Foam::dictionary controlDict = flotsam::readControlDict(args.rootPath()/args.globalCaseName()/"system"/Foam::Time::controlDictName);
-        flotsam::checkWriteInterval(controlDict);
+        flotsam::checkTimeEntries(controlDict);
+        if (const std::string doubt = flotsam::doubtfulWriting(controlDict); !doubt.empty()) Foam::Info<< "Warning: " << doubt.c_str() << Foam::nl;
         flotsam::checkLatestTimes(args.path(), controlDict);
         Foam::Time runTime(Foam::Time::controlDictName, args);
         flotsam::checkMesh(runTime);

@@ -293,7 +293,37 @@ Foam::dictionary readControlDict(const Foam::fileName& name)
     return dict;
 }
 
-void checkWriteInterval(const Foam::dictionary& controlDict) { readNumberOr(controlDict, "writeInterval", 1, positive); }
+namespace
+{
+
+bool isWord(const Foam::dictionary& dict, const char* keyword, const std::string& word, bool byDefault)
+{
+    return dict.found(keyword) ? readWord(dict, keyword) == word : byDefault;
+}
+
+} // namespace
+
+void checkTimeEntries(const Foam::dictionary& controlDict)
+{
+    if (controlDict.empty()) return;    // OpenFOAM says that there is none
+    readNumber(controlDict, "deltaT", positive);
+    readNumberOr(controlDict, "writeInterval", 1, positive);
+    if (isWord(controlDict, "stopAt", "endTime", true)) readAs<Foam::scalar>(controlDict, "endTime", "a number, the time in s at which the run ends");
+    if (isWord(controlDict, "startFrom", "startTime", false)) readAs<Foam::scalar>(controlDict, "startTime", "a number, the time in s from which the run goes on");
+    readFlagOr(controlDict, "adjustTimeStep", false);
+}
+
+std::string doubtfulWriting(const Foam::dictionary& controlDict)
+{
+    constexpr double most = 1e5;
+    const bool isTimed = isWord(controlDict, "writeControl", "adjustableRunTime", false) || isWord(controlDict, "writeControl", "adjustable", false) || isWord(controlDict, "writeControl", "runTime", false);
+    if (!isTimed || !controlDict.found("writeInterval") || !controlDict.found("endTime")) return "";
+    const double interval = readNumber(controlDict, "writeInterval", positive), end = readAs<Foam::scalar>(controlDict, "endTime", "a number"),
+        start = controlDict.found("startTime") ? readAs<Foam::scalar>(controlDict, "startTime", "a number") : 0;
+    if ((end - start)/interval <= most) return "";
+    return text("writeInterval ", interval, " s of system/controlDict makes ", (end - start)/interval, " time folders until endTime, ", end,
+        " s, and with writeControl adjustableRunTime no step is longer. It is in s of the run");
+}
 
 CaseControls readCaseControls(const Foam::Time& runTime)
 {

@@ -198,3 +198,26 @@ TEST_CASE("a mistake in controlDict while the run goes on is told once and chang
     CHECK(edited.update(parse("deltaT 0.01; maxCo 0.7; adjustTimeStep yes;")).empty());     // what it was
     CHECK(has(edited.update(parse("deltaT 0.01; maxCo half;")), "'maxCo' is 'half'"));
 }
+
+TEST_CASE("controlDict: times that are no numbers, and far more time folders than meant")
+{
+    const auto message = [](const std::string& contents) { return messageOf([&] { checkTimeEntries(parse(contents)); }); };
+    const auto has = [](const std::string& s, const std::string& part) { return s.find(part) != std::string::npos; };
+    CHECK(message("").empty());
+    CHECK(message("deltaT 0.01; endTime 4;").empty());
+    CHECK(message("deltaT 0.01; stopAt writeNow;").empty());
+    CHECK(has(message("endTime 4;"), "'deltaT' is missing: it must be a number larger than 0"));
+    CHECK(has(message("deltaT small; endTime 4;"), "'deltaT' is 'small', but must be a number larger than 0"));
+    CHECK(has(message("deltaT 0; endTime 4;"), "'deltaT' is 0: it must be larger than 0"));
+    CHECK(has(message("deltaT 0.01; endTime late;"), "'endTime' is 'late', but must be a number, the time in s at which the run ends"));
+    CHECK(has(message("deltaT 0.01;"), "'endTime' is missing"));
+    CHECK(has(message("deltaT 0.01; stopAt endTime;"), "'endTime' is missing"));
+    CHECK(has(message("deltaT 0.01; endTime 4; startFrom startTime;"), "'startTime' is missing"));
+    CHECK(has(message("deltaT 0.01; endTime 4; adjustTimeStep maybe;"), "'adjustTimeStep' is 'maybe', but must be on or off"));
+    CHECK(has(message("deltaT 0.01; endTime 4; writeInterval 0;"), "'writeInterval' is 0"));
+    const auto doubt = [](const std::string& contents) { return doubtfulWriting(parse("endTime 4; " + contents)); };
+    CHECK(doubt("writeControl adjustableRunTime; writeInterval 0.001;").empty());
+    CHECK(doubt("writeControl timeStep; writeInterval 1;").empty());
+    CHECK(has(doubt("writeControl adjustableRunTime; writeInterval 1e-7;"), "writeInterval 1e-07 s of system/controlDict makes 4e+07 time folders"));
+    CHECK(doubt("writeControl adjustableRunTime; writeInterval 1e-7; startTime 3.9999;").empty());
+}
