@@ -55,6 +55,37 @@ refuses() {
 refuses '/^    weak/d' 'whose restraints are mooring, link, weak; now they are mooring, link'
 refuses '/^restraints/,$d' 'whose restraints are mooring, link, weak; now they are none'
 
+# a chain is its lines, to the last bit (points that have no round-off), where a run goes on as well
+rm -rf singly && cp -r rest singly && rm -rf singly/{0.[0-9]*,postProcessing}
+sed -i '/^bodies/,$d' singly/constant/bodies
+echo 'bodies { float { shape { type box; size (0.02 0.02 0.05); } density 600; position (0 -0.0625 0.025); array { count (2 1 1); spacing (0.0625 0 0); } } }' >> singly/constant/bodies
+fixedSteps singly 0.002 0.02 5
+cp -r singly chained
+cat >> singly/constant/bodies << 'END'
+restraints
+{
+    boom.0 { type tether; body float.0; refAttachmentPt (-0.0078125 -0.0625 0); anchor (-0.0625 -0.09375 0); stiffness 5000; damping 5; }
+    boom.1 { type tether; body float.0; refAttachmentPt (0.0078125 -0.0625 0); otherBody float.1; otherRefAttachmentPt (0.0546875 -0.0625 0); stiffness 5000; damping 5; }
+    boom.2 { type tether; body float.1; refAttachmentPt (0.0703125 -0.0625 0); anchor (0.125 -0.09375 0); stiffness 5000; damping 5; }
+}
+END
+cat >> chained/constant/bodies << 'END'
+restraints
+{
+    boom { type chain; links tether; bodies float; front (-0.0078125 0 0); back (0.0078125 0 0); firstAnchor (-0.0625 -0.09375 0); lastAnchor (0.125 -0.09375 0); stiffness 5000; damping 5; }
+}
+END
+(cd singly && solve 1) || exit
+(cd chained && solve 1) || exit
+for name in boom.0 boom.1 boom.2; do
+    diff singly/postProcessing/restraints/0/$name.dat chained/postProcessing/restraints/0/$name.dat || fail "line $name of a chain differs from the same line on its own"
+done
+grep -v '#' chained/postProcessing/restraints/0/boom.0.dat | awk '$5 > 0 { n++ } END { exit n < 5 }' || fail "the first line of the chain does not pull"
+python "$here/compare.py" singly chained 0 || exit
+cp chained/constant/bodies singly/constant/bodies
+setEntry singly/system/controlDict endTime 0.024
+(cd singly && solve 1 && grep -q 'continuing the stored state of time 0.02' log.flotsamFoam) || fail "the lines' run does not go on as a chain's"
+
 # a run without restraints goes on with some
 setEntry rest/system/controlDict endTime 0.5
 setEntry rest/system/controlDict deltaT 0.005
