@@ -50,7 +50,7 @@ public:
     const Cover* cover() const { return scene_.isEmpty() ? nullptr : &builder_->cover(); }
 
     /// As Scene::fastest(); ahead: of the present time, for what moves as prescribed [s].
-    std::pair<std::string, double> fastestSolid(double ahead) const { return scene_.fastest(fluid_.state().time + ahead); }
+    std::pair<std::string, double> fastestSolid(double ahead) const { return scene_.fastest(fluid_.state().time + ahead, ahead); }
     /// That speed over the smallest cut element [1/s]; 0 without moving solids. Collective.
     double bodyCourantRate(double ahead) const;
     int bodiesInContact() const;

@@ -2,6 +2,7 @@
 #include "demCoupling/coupling/scene.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace flotsam
 {
@@ -74,23 +75,38 @@ std::vector<FreeBody> Scene::freeBodies(const BodyCoupling& coupling, double new
     return result;
 }
 
-std::pair<std::string, double> Scene::fastest(double time) const
+namespace
+{
+
+/// Of a box at a pose to a box in space [m], at least; 0: they may meet.
+double gapBetween(const std::array<Vec3, 2>& box, const Pose& pose, const std::array<Vec3, 2>& other)
+{
+    const Vec3 centre = pose.position + pose.orientation*(0.5*(box[0] + box[1])),
+        half = pose.orientation.toRotationMatrix().cwiseAbs()*(0.5*(box[1] - box[0]));
+    return std::max(0.0, ((other[0] - centre - half).cwiseMax(centre - half - other[1])).maxCoeff());
+}
+
+} // namespace
+
+std::pair<std::string, double> Scene::fastest(double time, double ahead) const
 {
     std::pair<std::string, double> result{"", 0};
-    const auto offer = [&](std::size_t s, const Pose& pose, const Motion& motion)
-    {
-        const double speed = fastestCorner(bounds_[s], pose, motion);
-        if (speed > result.second) result = {solids_[s].name, speed};
-    };
+    const auto offer = [&](std::size_t s, double speed) { if (speed > result.second) result = {solids_[s].name, speed}; };
     for (std::size_t s = 0; s < solids_.size(); ++s)
-        if (solids_[s].kind != Solid::Kind::Fixed) offer(s, solids_[s].pose, solids_[s].motion);
-    for (std::size_t s = 0; s < structures_.size(); ++s)
     {
-        if (!structures_[s].motion) continue;
+        const Solid& solid = solids_[s];
+        const double speed = solid.kind == Solid::Kind::Fixed ? 0 : fastestCorner(bounds_[s], solid.pose, solid.motion);
+        if (s >= structures_.size() || !structures_[s].motion)
+        {
+            offer(s, speed);
+            continue;
+        }
         Pose pose;
         Motion motion;
         structures_[s].motion(time, pose, motion);
-        offer(s, pose, motion);
+        const double fastest = std::max(speed, fastestCorner(bounds_[s], pose, motion));
+        const double gap = std::min(gapBetween(bounds_[s], solid.pose, meshBox_), gapBetween(bounds_[s], pose, meshBox_));
+        if (gap <= fastest*ahead) offer(s, fastest);
     }
     return result;
 }

@@ -56,8 +56,12 @@ public:
         return loads;
     }
 
-    /// Of the moving solids the one with the fastest surface, now or, of what moves as prescribed, at a time [s]: its name and that speed [m/s]; nothing and 0 without one.
-    std::pair<std::string, double> fastest(double time) const;
+    /// Box of the mesh [m], everything without: structures outside of it move nothing.
+    void liesIn(const std::array<Vec3, 2>& box) { meshBox_ = box; }
+
+    /// Of the moving solids the one with the fastest surface, now or, of what moves as prescribed, at a time that is `ahead` of now [s]: its name and that speed [m/s]; nothing and 0 without
+    /// one. Structures that do not come into the mesh until then do not count: a gate that is out of the water.
+    std::pair<std::string, double> fastest(double time, double ahead) const;
 
     /// Poses, motions and offsets of all solids as numbers, and back (checkpoint).
     std::vector<double> save() const;
@@ -70,6 +74,7 @@ private:
     std::vector<BodyDefinition> bodies_;
     std::vector<std::array<Vec3, 2>> bounds_;   // per solid, in its own frame [m]
     std::vector<Solid> solids_;
+    std::array<Vec3, 2> meshBox_{Vec3::Constant(-1e300), Vec3::Constant(1e300)};
     Vec3 gravity_;
     bool isMoving_ = false;
 };

@@ -31,7 +31,9 @@ Scene makeScene(const BodiesInput& input, const Vec3& gravity)
 {
     std::vector<SceneStructure> structures;
     for (const StructureDefinition& s : input.structures) structures.push_back({s.solid, s.wall, s.motion});
-    return Scene(structures, input.bodies, gravity);
+    Scene scene(structures, input.bodies, gravity);
+    scene.liesIn(input.box);
+    return scene;
 }
 
 void checkEntries(const BodiesInput& input, const FluidProperties& fluid)

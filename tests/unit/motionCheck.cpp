@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/coupling/motionCheck.hpp"
+#include "demCoupling/coupling/scene.hpp"
 
 #include "support/near.hpp"
 
@@ -152,4 +153,33 @@ TEST_CASE("a bar that rolls about its length goes less far than one that turns a
     CHECK(check.strayBody({at(0, 0, 0)}, {rolled}, 0.0028) == "bar"); // its edges
     CHECK(check.strayBody({at(0, 0, 0)}, {turned}, 0.099) == "bar");
     CHECK(check.strayBody({at(0, 0, 0)}, {turned}, 0.102) == "");
+}
+
+TEST_CASE("structures outside of the mesh do not limit time steps, unless they may come into it within the next one")
+{
+    SceneStructure gate;
+    gate.solid.name = "gate";
+    gate.solid.shape = makeBox(Vec3::Zero(), Vec3::Constant(side));
+    gate.solid.kind = Solid::Kind::Prescribed;
+    gate.motion = [](double time, Pose& pose, Motion& motion)   // leaves a mesh of 1 m upwards with 3 m/s
+    {
+        pose = {Vec3(0.5, 0.5, 0.5 + 3*time), Eigen::Quaterniond::Identity()};
+        motion = {Vec3(0, 0, 3), Vec3::Zero()};
+    };
+    Scene scene({gate}, {}, Vec3(0, 0, -9.81));
+    const auto fastest = [&](double now, double ahead)
+    {
+        scene.place(now, nullptr);
+        return scene.fastest(now + ahead, ahead).second;
+    };
+    CHECK(fastest(10, 0) == 3);         // without a mesh everything counts
+    scene.liesIn({Vec3::Zero(), Vec3::Ones()});
+    CHECK(fastest(0, 0.1) == 3);
+    CHECK(fastest(0.199, 0.001) == 3);  // its lower side is in it
+    CHECK(fastest(0.21, 0.0001) == 0);  // 3 cm above it
+    CHECK(fastest(0.21, 0.1) == 3);     // it could be back within that time
+    CHECK(scene.fastest(10, 0.1).first == "gate");
+    CHECK(fastest(10, 0.1) == 0);
+    CHECK(fastest(-0.3, 0.0001) == 0);  // below it, on its way
+    CHECK(fastest(-0.3, 0.15) == 3);
 }
