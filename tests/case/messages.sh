@@ -179,6 +179,17 @@ for steps in '0.05 0.25' '0.02 0.1'; do
     [ "$(grep -c '^  steps of a Courant number above 10  *[2-5]$' long/log)" -eq 2 ] || fail "steps that are too long: not counted in the summary"
 done
 
+# the same where maxCo lets them be as long
+setEntry long/system/controlDict adjustTimeStep yes
+setEntry long/system/controlDict maxCo 500
+setEntry long/system/controlDict maxAlphaCo 500
+setEntry long/system/controlDict maxDeltaT 0.05
+setEntry long/system/controlDict endTime 0.4
+rm -rf long/0.[0-9]*
+(cd long && quietly flotsamFoam && grep -q 'warning  *maxCo 500 of system/controlDict lets the water cross 500 elements' log.flotsamFoam) || fail "a maxCo beyond sense is not mentioned"
+[ "$(grep -c 'Warning: t = .* allowed by maxCo 500 and maxBodyCo 0.5, has a Courant number of 1[0-9.]*: |u| = .* Set maxCo' long/log.flotsamFoam)" -eq 1 ] || fail "steps that maxCo lets be too long: not told once"
+grep -q '^  steps of a Courant number above 10  *[1-9]' long/log.flotsamFoam || fail "steps that maxCo lets be too long: not counted"
+
 # a condition of a library of interFoam's
 rm -rf angle && cp -r good angle
 fixedSteps angle 0.001 0.002 1
