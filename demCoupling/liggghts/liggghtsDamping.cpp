@@ -28,10 +28,8 @@ double largestEigenvalue(const Eigen::Matrix<double, 6, 6>& a)
 } // namespace
 
 SphereDamping::SphereDamping(LiggghtsModel& model, const DemSetup& setup)
-    : model_(model), facets_(model), extents_(setup.bodies.size()), margins_(setup.bodies.size()), partners_(setup.bodies.size())
+    : model_(model), facets_(model), margins_(setup.bodies.size()), partners_(setup.bodies.size())
 {
-    for (size_t b = 0; b < setup.bodies.size(); ++b)
-        extents_[b] = outerRadius(setup.bodies[b]);
 }
 
 void SphereDamping::startSteps(double step)
@@ -57,13 +55,11 @@ void SphereDamping::beforeForces(const std::vector<std::vector<int>>& nearPlane)
 
 void SphereDamping::readBodies()
 {
-    const BodyArrays& b = model_.bodies;
     near_.clear();
     for (size_t i = 0; i < partners_.size(); ++i)
     {
         partners_[i].clear();
-        const double speed = asVec(b.vcm[i]).norm() + asVec(b.omega[i]).norm() * extents_[i];
-        margins_[i] = speed * stepsBetweenLooks * step_;
+        margins_[i] = model_.near->speedOf(i) * stepsBetweenLooks * step_;
     }
 }
 
@@ -103,25 +99,20 @@ SphereDamping::Row SphereDamping::inverseRoot(int body, const Vec3& arm, const V
 void SphereDamping::addPairs()
 {
     const LAMMPS_NS::Atom& atoms = *model_.instance.lammps().atom;
-    const LAMMPS_NS::NeighList& list = *model_.instance.lammps().force->pair->list;
-    for (int ii = 0; ii < list.inum; ++ii)
+    model_.near->forEachCandidate([&](int i, int other)
     {
-        const int i = list.ilist[ii], a = bodyOf(i);
-        for (int jj = 0; jj < list.numneigh[i]; ++jj)
-        {
-            const int j = list.firstneigh[i][jj] & NEIGHMASK, b = bodyOf(j);
-            const Vec3 apart = asVec(atoms.x[i]) - asVec(atoms.x[j]);
-            const double reach = atoms.radius[i] + atoms.radius[j] + margins_[static_cast<size_t>(a)] + margins_[static_cast<size_t>(b)];
-            if (apart.squaredNorm() > reach * reach)
-                continue;
-            const Vec3 normal = apart.normalized(), point = asVec(atoms.x[j]) + atoms.radius[j] * normal;
-            const auto rowA = inverseRoot(a, point - asVec(model_.bodies.xcm[a]), normal);
-            const auto rowB = inverseRoot(b, point - asVec(model_.bodies.xcm[b]), normal);
-            const double c = damping(i, model_.classOfSphere[static_cast<size_t>(j)]);
-            const double ratio = rowB.squaredNorm() / rowA.squaredNorm();
-            near_.push_back({i, j, {a, partnerOf(a, b), std::sqrt(c * (1 + ratio)) * rowA}, {b, partnerOf(b, a), std::sqrt(c * (1 + 1 / ratio)) * rowB}});
-        }
-    }
+        const int j = other & NEIGHMASK, a = bodyOf(i), b = bodyOf(j);
+        const Vec3 apart = asVec(atoms.x[i]) - asVec(atoms.x[j]);
+        const double reach = atoms.radius[i] + atoms.radius[j] + margins_[static_cast<size_t>(a)] + margins_[static_cast<size_t>(b)];
+        if (apart.squaredNorm() > reach * reach)
+            return;
+        const Vec3 normal = apart.normalized(), point = asVec(atoms.x[j]) + atoms.radius[j] * normal;
+        const auto rowA = inverseRoot(a, point - asVec(model_.bodies.xcm[a]), normal);
+        const auto rowB = inverseRoot(b, point - asVec(model_.bodies.xcm[b]), normal);
+        const double c = damping(i, model_.classOfSphere[static_cast<size_t>(j)]);
+        const double ratio = rowB.squaredNorm() / rowA.squaredNorm();
+        near_.push_back({i, j, {a, partnerOf(a, b), std::sqrt(c * (1 + ratio)) * rowA}, {b, partnerOf(b, a), std::sqrt(c * (1 + 1 / ratio)) * rowB}});
+    });
 }
 
 void SphereDamping::addWallContact(int sphere, int wallClass, int wall, const Vec3& point)

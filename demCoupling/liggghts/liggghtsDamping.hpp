@@ -53,8 +53,7 @@ private:
 
     LiggghtsModel& model_;
     FacetChoice facets_;
-    std::vector<double> extents_;   ///< of each body from its centre [m]
-    std::vector<double> margins_;   ///< how far the surface of each body moves until the next look [m]
+    std::vector<double> margins_;   ///< how far the spheres of each body move until the next look [m]
     std::vector<std::vector<Partner>> partners_; ///< of each body
     std::vector<Near> near_;
     std::vector<int> levels_;       ///< of each sphere

@@ -32,8 +32,6 @@ constexpr double leastReach = 0.0025;   // of the skin, for bodies that are push
 
 Vec3 asVec(const double* v) { return Vec3(v[0], v[1], v[2]); }
 
-LAMMPS_NS::NeighList& pairList(const LiggghtsModel& model) { return *model.instance.lammps().force->pair->list; }
-
 /// The lists are protected; a derived class may name them.
 struct MeshListAccess : LAMMPS_NS::FixNeighlistMesh
 {
@@ -44,6 +42,8 @@ struct MeshListAccess : LAMMPS_NS::FixNeighlistMesh
 };
 
 } // namespace
+
+LAMMPS_NS::NeighList& pairList(const LiggghtsModel& model) { return *model.instance.lammps().force->pair->list; }
 
 std::vector<int>& meshList(LAMMPS_NS::FixMeshSurface& mesh, int triangle) { return MeshListAccess::of(*mesh.meshNeighlist(), triangle); }
 
@@ -77,15 +77,21 @@ double NearSpheres::wayFrom(const std::vector<Place>& places, size_t body) const
            + extents_[body][1] * (asVec(b.ey[body]) - old[2]).norm() + extents_[body][2] * (asVec(b.ez[body]) - old[3]).norm();
 }
 
+double NearSpheres::speedOf(size_t body) const
+{
+    const BodyArrays& b = model_.bodies;
+    const Vec3 spin = asVec(b.omega[body]);
+    return asVec(b.vcm[body]).norm() + extents_[body][0] * spin.cross(asVec(b.ex[body])).norm() + extents_[body][1] * spin.cross(asVec(b.ey[body])).norm()
+           + extents_[body][2] * spin.cross(asVec(b.ez[body])).norm();
+}
+
 /// How far a body may move between two rebuilds [m]: another may come to meet it.
 double NearSpheres::listReach() const { return 0.5 * model_.instance.lammps().neighbor->skin; }
 
-double NearSpheres::wantedReach(size_t body) const
+double NearSpheres::wantedReach(size_t body, double steps, double least) const
 {
-    const BodyArrays& b = model_.bodies;
     const LAMMPS_NS::LAMMPS& dem = model_.instance.lammps();
-    const double speed = asVec(b.vcm[body]).norm() + asVec(b.omega[body]).norm() * extents_[body].norm();
-    return std::min(stepsToSelection * speed * dem.update->dt + leastReach * dem.neighbor->skin, 0.5 * listReach());
+    return std::min(steps * speedOf(body) * dem.update->dt + least * dem.neighbor->skin, 0.5 * listReach());
 }
 
 void NearSpheres::takeLists(const std::vector<std::vector<int>>& nearPlane)
@@ -93,6 +99,8 @@ void NearSpheres::takeLists(const std::vector<std::vector<int>>& nearPlane)
     rebuilt_.resize(reach_.size());
     for (size_t b = 0; b < rebuilt_.size(); ++b)
         rebuilt_[b] = placeOf(b);
+    wasGone_ = model_.isGone;
+    wasRetreated_ = model_.isRetreated;
     isOld_ = false;
     std::fill(isActive_.begin(), isActive_.end(), 0);
     takePairs();
@@ -110,20 +118,40 @@ void NearSpheres::takeLists(const std::vector<std::vector<int>>& nearPlane)
     isNew_ = true;
 }
 
+bool NearSpheres::takeListsAgain()
+{
+    if (rebuilt_.empty() || wasGone_ != model_.isGone || wasRetreated_ != model_.isRetreated)
+        return false;
+    for (size_t b = 0; b < rebuilt_.size(); ++b)
+        if (placeOf(b) != rebuilt_[b])
+            return false;
+    const LAMMPS_NS::NeighList& list = pairList(model_);
+    allSpheres_.assign(list.ilist, list.ilist + list.inum);
+    isOld_ = false;
+    forgetGaps();
+    select();
+    isNew_ = true;
+    return true;
+}
+
 void NearSpheres::takePairs()
 {
     const LAMMPS_NS::NeighList& list = pairList(model_);
     allSpheres_.assign(list.ilist, list.ilist + list.inum);
     pairs_.clear();
+    others_.clear();
     for (const int i : allSpheres_)
     {
         if (list.numneigh[i] == 0)
             continue;
-        pairs_.push_back({i, std::vector<int>(list.firstneigh[i], list.firstneigh[i] + list.numneigh[i])});
+        const size_t first = others_.size();
+        others_.insert(others_.end(), list.firstneigh[i], list.firstneigh[i] + list.numneigh[i]);
+        pairs_.push_back({i, first, others_.size()});
         markActive(i);
-        for (const int j : pairs_.back().others)
-            markActive(j & NEIGHMASK);
+        for (size_t k = first; k < others_.size(); ++k)
+            markActive(others_[k] & NEIGHMASK);
     }
+    forgetGaps();
 }
 
 void NearSpheres::takeTriangles()
@@ -147,12 +175,21 @@ void NearSpheres::takeTriangles()
 bool NearSpheres::keepUp()
 {
     isNew_ = false;
+    bool isFar = false;
     for (size_t b = 0; b < selected_.size() && !isOld_; ++b)
+    {
         if (wayFrom(selected_, b) > reach_[b])
         {
             select();
-            break;
+            return !isOld_;
         }
+        isFar = isFar || wayFrom(few_, b) > shortReach_[b];
+    }
+    if (isFar && !isOld_)
+    {
+        placeSpheres(model_, near_);
+        selectFew();
+    }
     return !isOld_;
 }
 
@@ -161,72 +198,29 @@ void NearSpheres::cover(const std::vector<double>& ways)
     for (size_t b = 0; b < selected_.size(); ++b)
         if (wayFrom(selected_, b) + ways[b] > reach_[b])
             return select();
+    placeSpheres(model_, near_);
+    selectFew();
 }
 
 void NearSpheres::select()
 {
     placeSpheres(model_, listed_);
+    addWays();
     selected_.resize(reach_.size());
     for (size_t b = 0; b < reach_.size(); ++b)
     {
         selected_[b] = placeOf(b);
-        reach_[b] = wantedReach(b);
+        reach_[b] = wantedReach(b, stepsToSelection, leastReach);
         isOld_ = isOld_ || wayFrom(rebuilt_, b) + reach_[b] > listReach();
     }
     for (const int i : listed_)
         isActive_[static_cast<size_t>(i)] = 0;
     selectTriangles();
-    selectPairs();
     for (const int i : nearPlanes_)
         markActive(i);
-    active_.clear();
-    for (const int i : listed_)
-        if (isActive_[static_cast<size_t>(i)])
-            active_.push_back(i);
-}
-
-void NearSpheres::selectPairs()
-{
-    LAMMPS_NS::NeighList& list = pairList(model_);
-    list.inum = 0;
-    for (const Neighbours& all : pairs_)
-    {
-        list.numneigh[all.sphere] = selectPairs(all);
-        if (list.numneigh[all.sphere] > 0)
-            list.ilist[list.inum++] = all.sphere;
-    }
-}
-
-/// Of one sphere, in the order of LIGGGHTS, with the springs of those in touch; their number.
-int NearSpheres::selectPairs(const Neighbours& all)
-{
-    const LAMMPS_NS::Atom& atoms = *model_.instance.lammps().atom;
-    const LAMMPS_NS::NeighList& list = pairList(model_);
-    const int i = all.sphere;
-    int *const others = list.firstneigh[i], *const flags = list.listgranhistory->firstneigh[i];
-    double* const springs = list.listgranhistory->firstdouble[i];
-    touching_.clear();
-    for (int jj = 0; jj < list.numneigh[i]; ++jj)
-        if (flags[jj])
-            touching_.push_back({others[jj], flags[jj], asVec(springs + 3 * jj)});
-    int count = 0;
-    auto touching = touching_.begin();
-    for (const int other : all.others)
-    {
-        const int j = other & NEIGHMASK;
-        const bool isTouching = touching != touching_.end() && touching->other == other;
-        const double reach = atoms.radius[i] + atoms.radius[j] + reach_[bodyOf(i)] + reach_[bodyOf(j)];
-        if (!isTouching && (asVec(atoms.x[i]) - asVec(atoms.x[j])).squaredNorm() > reach * reach)
-            continue;
-        others[count] = other;
-        flags[count] = isTouching ? touching->flag : 0;
-        Vec3::Map(springs + 3 * count) = isTouching ? touching->spring : Vec3::Zero();
-        touching += isTouching;
-        ++count;
-        markActive(i);
-        markActive(j);
-    }
-    return count;
+    isHeld_ = isActive_;
+    selectCandidates();
+    selectFew();
 }
 
 void NearSpheres::dropOpenedContacts()

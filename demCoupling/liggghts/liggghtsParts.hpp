@@ -9,6 +9,7 @@ namespace LAMMPS_NS
 {
 class FixMultisphere;
 class FixMeshSurface;
+class NeighList;
 }
 
 namespace flotsam

@@ -100,7 +100,8 @@ void restoreState(LiggghtsModel& model, const DemState& state)
     readRetreated(model, data.data() + wallEnd);
     writeBodies(model, data.data() + headerLength);
     placeSpheres(model);
-    rebuildNeighbours(model);
+    if (!model.near->takeListsAgain())
+        rebuildNeighbours(model);
     for (size_t w = 0; w < model.walls.size(); ++w)
     {
         const double* load = data.data() + bodyEnd + w * wallLength;
