@@ -123,6 +123,8 @@ void NearSpheres::selectFew()
     }
     LAMMPS_NS::NeighList& list = pairList(model_);
     list.inum = 0;
+    std::swap(fewPairs_, fewPairsBefore_);
+    fewPairs_.clear(candidateOthers_.size());
     for (const int i : near_)
         isActive_[static_cast<size_t>(i)] = isHeld_[static_cast<size_t>(i)];
     for (const Neighbours& all : candidates_)
@@ -143,30 +145,32 @@ int NearSpheres::selectFew(const Neighbours& all)
     const LAMMPS_NS::Atom& atoms = *model_.instance.lammps().atom;
     const LAMMPS_NS::NeighList& list = pairList(model_);
     const int i = all.sphere;
-    int *const others = list.firstneigh[i], *const flags = list.listgranhistory->firstneigh[i];
-    double* const springs = list.listgranhistory->firstdouble[i];
-    touching_.clear();
-    for (int jj = 0; jj < list.numneigh[i]; ++jj)
-        if (flags[jj])
-            touching_.push_back({others[jj], flags[jj], asVec(springs + 3 * jj)});
-    int count = 0;
-    auto touching = touching_.begin();
+    int *&others = list.firstneigh[i], *&flags = list.listgranhistory->firstneigh[i];
+    double*& springs = list.listgranhistory->firstdouble[i];
+    const size_t first = fewPairs_.others.size();
+    int jj = 0;
+    const auto skipOpen = [&] { while (jj < list.numneigh[i] && !flags[jj]) ++jj; };
+    skipOpen();
     for (size_t k = all.first; k < all.last; ++k)
     {
         const int other = candidateOthers_[k], j = other & NEIGHMASK;
-        const bool isTouching = touching != touching_.end() && touching->other == other;
+        const bool isTouching = jj < list.numneigh[i] && others[jj] == other;
         const double reach = atoms.radius[i] + atoms.radius[j] + shortReach_[bodyOf(i)] + shortReach_[bodyOf(j)];
         if (!isTouching && (asVec(atoms.x[i]) - asVec(atoms.x[j])).squaredNorm() > reach * reach)
             continue;
-        others[count] = other;
-        flags[count] = isTouching ? touching->flag : 0;
-        Vec3::Map(springs + 3 * count) = isTouching ? touching->spring : Vec3::Zero();
-        touching += isTouching;
-        ++count;
+        fewPairs_.add(other, isTouching ? flags[jj] : 0, isTouching ? asVec(springs + 3 * jj) : Vec3::Zero());
+        if (isTouching)
+        {
+            ++jj;
+            skipOpen();
+        }
         markActive(i);
         markActive(j);
     }
-    return count;
+    others = fewPairs_.others.data() + first;
+    flags = fewPairs_.flags.data() + first;
+    springs = fewPairs_.springs.data() + 3 * first;
+    return static_cast<int>(fewPairs_.others.size() - first);
 }
 
 } // namespace flotsam

@@ -67,7 +67,28 @@ private:
     struct Neighbours { int sphere; size_t first, last; };
     /// Of a sphere of LIGGGHTS' lists when it was last looked at: least gap to any of the others, and how far its body and the fastest one had gone by then [m].
     struct Gap { double least, way, largestWay; };
-    struct Touching { int other, flag; Vec3 spring; };
+    /// What LIGGGHTS visits in a sub-step, side by side: its own lists are spread over some MB, which no cache holds.
+    struct ListedPairs
+    {
+        std::vector<int> others, flags;
+        std::vector<double> springs;
+        /// Lists that LIGGGHTS points to do not move while others are added.
+        void clear(size_t most)
+        {
+            others.clear();
+            flags.clear();
+            springs.clear();
+            others.reserve(most);
+            flags.reserve(most);
+            springs.reserve(3 * most);
+        }
+        void add(int other, int flag, const Vec3& spring)
+        {
+            others.push_back(other);
+            flags.push_back(flag);
+            springs.insert(springs.end(), spring.data(), spring.data() + 3);
+        }
+    };
     struct TriangleNeighbours { size_t mesh; int triangle; std::array<Vec3, 3> corners; std::vector<int> spheres; };
     /// Pose of a body as LIGGGHTS keeps it: centre and axes.
     using Place = std::array<Vec3, 4>;
@@ -112,7 +133,7 @@ private:
     std::vector<SphereTriangles> atTriangles_;
     std::vector<char> isActive_;    ///< of each sphere
     std::vector<char> isHeld_;      ///< of each sphere: active whatever pairs are chosen, at triangles or planes
-    std::vector<Touching> touching_; ///< of the sphere at hand
+    ListedPairs fewPairs_, fewPairsBefore_;
 };
 
 } // namespace flotsam
