@@ -79,9 +79,9 @@ void BodyCoupling::shareResults()
         passAll(archive, result_, newContact_);
         passSummary(archive, touch_);
     };
-    NumberWriter writer; // on every rank, for the length
-    passResults(writer);
-    std::vector<double>& numbers = writer.numbers();
+    sent_.clear();
+    passResults(sent_); // on every rank, for the length
+    std::vector<double>& numbers = sent_.numbers();
     MPI_Bcast(numbers.data(), int(numbers.size()), MPI_DOUBLE, 0, comm_);
     NumberReader reader(numbers.data());
     passResults(reader);

@@ -116,6 +116,7 @@ private:
     std::vector<Load> lastLoads_, loads_, newContact_, contact_;
     std::vector<Load> smoothing_, guessAtStart_; // smoothing_: of the guess, what is not contact
     std::vector<InertiaFactor> factorsAtStart_;
+    NumberWriter sent_;                         // results of the engine, to all ranks
     ContactSummary touch_, touchAtStart_;       // of the engine's last run
     std::vector<char> isHeld_, isJustReleased_;
     std::vector<Presence> presence_;

@@ -16,6 +16,7 @@ class NumberWriter
 public:
     template <class Number> void number(const Number& value) { numbers_.push_back(static_cast<double>(value)); }
     std::vector<double>& numbers() { return numbers_; }
+    void clear() { numbers_.clear(); }      ///< keeps its memory
 
 private:
     std::vector<double> numbers_;

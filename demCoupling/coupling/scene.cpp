@@ -113,7 +113,9 @@ std::pair<std::string, double> Scene::fastest(double time, double ahead) const
 
 std::vector<double> Scene::save() const
 {
+    constexpr std::size_t perSolid = 18;
     std::vector<double> data;
+    data.reserve(perSolid*solids_.size());
     for (const Solid& s : solids_)
     {
         data.insert(data.end(), s.pose.position.data(), s.pose.position.data() + 3);

@@ -143,6 +143,7 @@ void leaveSpheresToUs(LiggghtsModel& model)
 std::vector<Load> totalForces(const LiggghtsModel& model)
 {
     std::vector<Load> forces;
+    forces.reserve(static_cast<size_t>(model.bodies.count));
     for (int b = 0; b < model.bodies.count; ++b)
         forces.push_back({Vec3::Map(model.bodies.fcm[b]), Vec3::Map(model.bodies.torque[b])});
     return forces;

@@ -155,7 +155,8 @@ SphereDamping::Partner& SphereDamping::partner(const Side& side)
 /// The traces bound the eigenvalues from above: where they add up to no more than 1, nothing is too large.
 void SphereDamping::addRates()
 {
-    std::vector<double> traces(partners_.size());
+    std::vector<double>& traces = traces_;
+    traces.assign(partners_.size(), 0);
     for (const Near& n : near_)
         for (const Side* side : {&n.side, &n.otherSide})
             if (side->body >= 0)

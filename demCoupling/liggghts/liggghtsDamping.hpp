@@ -56,6 +56,7 @@ private:
     std::vector<double> margins_;   ///< how far the spheres of each body move until the next look [m]
     std::vector<std::vector<Partner>> partners_; ///< of each body
     std::vector<Near> near_;
+    std::vector<double> traces_;    ///< of each body's rates times the sub-step
     std::vector<int> levels_;       ///< of each sphere
     double step_ = 0;               ///< [s], 0 between calls
     int stepsToLook_ = 0;

@@ -19,6 +19,7 @@ constexpr double formatNumber = 3;
 constexpr size_t headerLength = 4;
 constexpr size_t bodyLength = 11 * 3 + 4 + 8;
 constexpr size_t wallLength = 6;
+constexpr size_t springsPerBody = 40;   // room for some
 
 std::array<double**, 11> vectorsOf(const BodyArrays& b)
 {
@@ -59,6 +60,7 @@ DemState saveState(const LiggghtsModel& model)
 {
     DemState state;
     std::vector<double>& data = state.data;
+    data.reserve(headerLength + static_cast<size_t>(model.bodies.count) * (bodyLength + springsPerBody) + model.walls.size() * wallLength);
     data = {formatNumber, static_cast<double>(model.bodies.count), static_cast<double>(model.walls.size()),
             static_cast<double>(model.firstSphere.back())};
     const auto vectors = vectorsOf(model.bodies);

@@ -20,10 +20,10 @@ void HeldPressure::exclude(const FlowSystem& system, std::vector<char>& isExclud
 }
 
 /// By position and node.
-GhostHeldNodes::Entries HeldPressure::rowsOf(const FlowSystem& system) const
+void HeldPressure::findRows(const FlowSystem& system)
 {
-    GhostHeldNodes::Entries entries;
-    const auto add = [&](int row, int node, double value) { if (isFreePressure(system, node)) entries.emplace_back(row, node, value); };
+    entries_.clear();
+    const auto add = [&](int row, int node, double value) { if (isFreePressure(system, node)) entries_.emplace_back(row, node, value); };
     for (int k = 0; k < int(held_.nodes().size()); ++k)
     {
         const int i = held_.nodes()[k];
@@ -35,26 +35,25 @@ GhostHeldNodes::Entries HeldPressure::rowsOf(const FlowSystem& system) const
             const int row = held_.position(g.node[i]);
             for (int j = 0; row >= 0 && j < system.dim + 2; ++j) add(row, g.node[j], g.pressureFactor*g.jumpPressure[i]*g.jumpPressure[j]);
         }
-    return entries;
 }
 
 void HeldPressure::set(const FlowSystem& system, const std::vector<double>& ghost)
 {
     held_.clear();
     if (system.ghosts.empty()) return;
-    std::vector<char> isExcluded(nOwned_);
-    std::vector<double> ofElements(nOwned_);
-    exclude(system, isExcluded);
-    for (int i = 0; i < nOwned_; ++i) ofElements[i] = system.schur[graph_.diagonal[i]];
-    held_.find(ghost, ofElements, isExcluded);
+    isExcluded_.assign(nOwned_, 0);
+    ofElements_.resize(nOwned_);
+    exclude(system, isExcluded_);
+    for (int i = 0; i < nOwned_; ++i) ofElements_[i] = system.schur[graph_.diagonal[i]];
+    held_.find(ghost, ofElements_, isExcluded_);
     if (held_.isEmpty()) return;
-    const GhostHeldNodes::Entries rows = rowsOf(system);
+    findRows(system);
     rows_.resize(Eigen::Index(held_.nodes().size()), nOwned_);
-    rows_.setFromTriplets(rows.begin(), rows.end());
-    GhostHeldNodes::Entries block;
-    for (const auto& e : rows)
-        if (const int column = held_.position(e.col()); column >= 0) block.emplace_back(e.row(), column, e.value());
-    held_.factor(block, 1);
+    rows_.setFromTriplets(entries_.begin(), entries_.end());
+    block_.clear();
+    for (const auto& e : entries_)
+        if (const int column = held_.position(e.col()); column >= 0) block_.emplace_back(e.row(), column, e.value());
+    held_.factor(block_, 1);
 }
 
 void HeldPressure::correct(const double* r, double* p)

@@ -20,12 +20,15 @@ public:
 
 private:
     void exclude(const FlowSystem& system, std::vector<char>& isExcluded) const;
-    GhostHeldNodes::Entries rowsOf(const FlowSystem& system) const;
+    void findRows(const FlowSystem& system);
 
     const NodeGraph& graph_;
     const int nOwned_;
     GhostHeldNodes held_;
     Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;     // held_.nodes() by owned nodes
+    GhostHeldNodes::Entries entries_, block_;   // their numbers, and those between held nodes
+    std::vector<char> isExcluded_;
+    std::vector<double> ofElements_;
 };
 
 } // namespace flotsam

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 
 namespace flotsam
 {
@@ -211,7 +212,8 @@ private:
         const SimplexFacet<dim>* facets, int nFacets, const int* solidOf = nullptr) const; // solidOf: of SimplexFacet::solid, -1: by the place
     template <int dim> std::array<double, (dim + 1) * dim> verticesOf(int element) const;
     template <int dim> void addCuttingFaces(const Solid& solid, int element, CuttingFaces& faces) const;
-    template <int dim> EdgeCut<dim> cutAtEdge(const CuttingFaces& faces, int element, bool areApart = false) const;
+    /// Valid until the next one.
+    template <int dim> const EdgeCut<dim>& cutAtEdge(const CuttingFaces& faces, int element, bool areApart = false) const;
     int solidAt(const Cover& cover, const std::vector<Solid>& solids, int element, const double* shape) const;
     void copyFixedCuts();
     void findGhostFaces(Cover& cover) const;
@@ -229,6 +231,8 @@ private:
     NodeBins bins_;
     WallFilm film_;
     std::vector<double> snap_;          // nNodes: distance that counts as solid [m]
+    mutable std::tuple<EdgeCut<2>, EdgeCut<3>> edgeCut_, partCut_;
+    mutable std::vector<int> solidOfPart_;  // of the element at hand
     mutable NodeFaces nodeFaces_;
     mutable CuttingFaces cutting_;      // scratch
     mutable std::vector<double> joined_;    // scratch
@@ -338,7 +342,7 @@ void CoverBuilder::visitCutAlone(const Solid& solid, int element, Visit visit) c
         cutting_.clear();
         addCuttingFaces<dim>(solid, element, cutting_);
         if (cutting_.isApart()) return;
-        const EdgeCut<dim> cut = cutAtEdge<dim>(cutting_, element);
+        const EdgeCut<dim>& cut = cutAtEdge<dim>(cutting_, element);
         visit(cut, cut.facets.data(), static_cast<int>(cut.facets.size()));
     }
     else if (how == AloneCut::ByDistance)

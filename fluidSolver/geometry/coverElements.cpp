@@ -138,18 +138,21 @@ template void CoverBuilder::addCuttingFaces<3>(const Solid&, int, CuttingFaces&)
 
 /// areApart: no two parts overlap or touch in the element.
 template <int dim>
-EdgeCut<dim> CoverBuilder::cutAtEdge(const CuttingFaces& faces, int element, bool areApart) const
+const EdgeCut<dim>& CoverBuilder::cutAtEdge(const CuttingFaces& faces, int element, bool areApart) const
 {
     const auto vertices = verticesOf<dim>(element);
     const double* gradN = &mesh_.gradN[std::size_t(element) * (dim + 1) * dim];
-    if (faces.isWhole()) return {};
-    if (faces.end.size() == 1 && faces.end[0] == 1) return EdgeCut<dim>(cutSimplex<dim>(faces.distances.data(), mesh_.volume[element], vertices.data(), gradN));
-    if (faces.end.size() == 1) return cutSimplexAtEdge<dim>(faces.distances.data(), faces.end[0], mesh_.volume[element], vertices.data(), gradN);
-    const auto cut = areApart ? cutSimplexOfApartSolids<dim> : cutSimplexOfSolids<dim>;
-    return cut(faces.distances.data(), faces.end, mesh_.volume[element], vertices.data(), gradN);
+    const double *distances = faces.distances.data(), volume = mesh_.volume[element];
+    EdgeCut<dim>& cut = std::get<EdgeCut<dim>>(edgeCut_);
+    if (faces.isWhole()) cut.clear();
+    else if (faces.end.size() == 1 && faces.end[0] == 1) cut = cutSimplex<dim>(distances, volume, vertices.data(), gradN);
+    else if (faces.end.size() == 1) cutSimplexAtEdge<dim>(distances, faces.end[0], volume, vertices.data(), gradN, cut);
+    else if (areApart) cutSimplexOfApartSolids<dim>(distances, faces.end, volume, vertices.data(), gradN, cut, std::get<EdgeCut<dim>>(partCut_));
+    else cutSimplexOfSolids<dim>(distances, faces.end, volume, vertices.data(), gradN, cut);
+    return cut;
 }
-template EdgeCut<2> CoverBuilder::cutAtEdge<2>(const CuttingFaces&, int, bool) const;
-template EdgeCut<3> CoverBuilder::cutAtEdge<3>(const CuttingFaces&, int, bool) const;
+template const EdgeCut<2>& CoverBuilder::cutAtEdge<2>(const CuttingFaces&, int, bool) const;
+template const EdgeCut<3>& CoverBuilder::cutAtEdge<3>(const CuttingFaces&, int, bool) const;
 
 template <int dim>
 void CoverBuilder::cutElementAtEdge(Cover& cover, const std::vector<Solid>& solids, int element, const double* distance) const
@@ -161,7 +164,7 @@ void CoverBuilder::cutElementAtEdge(Cover& cover, const std::vector<Solid>& soli
     if (cutting_.isApart()) return;
     const bool isBody = solid.kind == Solid::Kind::Free || solid.isLoose; // held or not: its cut must not jump as it is let go
     if (!isBody && isOnBoundary(element)) cutPatchFaces<dim>(cover, element, cutting_);
-    const EdgeCut<dim> cut = cutAtEdge<dim>(cutting_, element);
+    const EdgeCut<dim>& cut = cutAtEdge<dim>(cutting_, element);
     if (cut.facets.empty() && *std::min_element(distance, distance + dim + 1) > 0) return;
     storeCut<dim>(cover, solids, element, cut, cut.facets.data(), static_cast<int>(cut.facets.size()));
 }

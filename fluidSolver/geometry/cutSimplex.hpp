@@ -56,22 +56,34 @@ struct EdgeCut : SimplexMoments<dim>
     std::vector<SimplexFacet<dim>> facets;
 
     EdgeCut() : SimplexMoments<dim>{} {}
-    explicit EdgeCut(const SimplexCut<dim>& cut) : SimplexMoments<dim>(cut), facets(cut.facets, cut.facets + cut.nFacets) {}
+
+    /// Its facets keep their memory.
+    void clear()
+    {
+        static_cast<SimplexMoments<dim>&>(*this) = {};
+        facets.clear();
+    }
+    EdgeCut& operator=(const SimplexCut<dim>& cut)
+    {
+        static_cast<SimplexMoments<dim>&>(*this) = cut;
+        facets.assign(cut.facets, cut.facets + cut.nFacets);
+        return *this;
+    }
 };
 
 /// The solid is where all of several distances are negative: an edge or a corner between the faces of a body is not cut off, and may lie in
 /// a simplex with all its nodes outside. distances: nFaces*(dim+1) nodal values, none zero.
 template <int dim>
-EdgeCut<dim> cutSimplexAtEdge(const double* distances, int nFaces, double volume, const double* vertices, const double* gradN);
+void cutSimplexAtEdge(const double* distances, int nFaces, double volume, const double* vertices, const double* gradN, EdgeCut<dim>& cut);
 
 /// Likewise of several solids, each inside of all of its own faces: the fluid is outside of all of them. faceEnd: of each solid's faces in `distances`.
 /// One facet a face, whatever its outline: the points have its moments to the second.
 template <int dim>
-EdgeCut<dim> cutSimplexOfSolids(const double* distances, const std::vector<int>& faceEnd, double volume, const double* vertices, const double* gradN);
+void cutSimplexOfSolids(const double* distances, const std::vector<int>& faceEnd, double volume, const double* vertices, const double* gradN, EdgeCut<dim>& cut);
 
-/// The same of solids that neither overlap nor touch in the simplex, cut one by one: cheaper, and the same to round-off.
+/// The same of solids that neither overlap nor touch in the simplex, cut one by one: cheaper, and the same to round-off. part: for the work.
 template <int dim>
-EdgeCut<dim> cutSimplexOfApartSolids(const double* distances, const std::vector<int>& faceEnd, double volume, const double* vertices, const double* gradN);
+void cutSimplexOfApartSolids(const double* distances, const std::vector<int>& faceEnd, double volume, const double* vertices, const double* gradN, EdgeCut<dim>& sum, EdgeCut<dim>& part);
 
 /// The simplex has a part inside of all faces: a piece of more than leastPart of it. Far cheaper than the cut, of which it tells nothing else.
 template <int dim>

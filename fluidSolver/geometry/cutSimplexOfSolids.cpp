@@ -29,21 +29,21 @@ public:
         if (nSolids > 1) joinPlanes();
     }
 
-    EdgeCut<dim> cut()
+    void cut(EdgeCut<dim>& result)
     {
         SimplexPoint<dim> whole[dim + 1] = {};
         for (int a = 0; a <= dim; ++a) whole[a].n[a] = 1;
+        begin(result);
         cutPart(whole, volume_, 0, 0);
-        return std::move(result_);
     }
 
     /// The solid part instead, and its facets: of one solid.
-    EdgeCut<dim> cutSolid()
+    void cutSolid(EdgeCut<dim>& result)
     {
         SimplexPoint<dim> whole[dim + 1] = {};
         for (int a = 0; a <= dim; ++a) whole[a].n[a] = 1;
+        begin(result);
         cutInside(whole, volume_, 0);
-        return std::move(result_);
     }
 
     bool hasSolidPart(double leastPart) const
@@ -61,12 +61,20 @@ public:
             if (a != corner) face[i++].n[a] = 1;
         double opposite[dim + 1] = {};  // falls towards the face
         opposite[corner] = 1;
+        EdgeCut<dim> result;
+        begin(result);
         for (int solid = 0; solid < nSolids_; ++solid) cutFacet(face, opposite, solid, solid == 0 ? 0 : faceEnd_[solid - 1]);
-        return std::move(result_.facets);
+        return std::move(result.facets);
     }
 
 private:
     using Point = SimplexPoint<dim>;
+
+    void begin(EdgeCut<dim>& result)
+    {
+        result_ = &result;
+        result.clear();
+    }
 
     /// Of planes that two solids nearly have in common, on the same or on opposite sides of it, the second becomes the first. What is on a face to round-off is inside of the other then, all of it. With
     /// their small distance some corners of a facet would count as inside and some as outside, others than those of the piece of volume beside it.
@@ -100,13 +108,10 @@ private:
 
     double valueAt(int face, const Point& p) const
     {
+        const double* distances = distances_ + face * (dim + 1);
         double value = 0, scale = 0;
-        for (int a = 0; a <= dim; ++a)
-        {
-            const double term = distances_[face * (dim + 1) + a] * p.n[a];
-            value += term;
-            scale += std::abs(term);
-        }
+        for (int a = 0; a <= dim; ++a) value += distances[a] * p.n[a];
+        for (int a = 0; a <= dim && onFace_ > 0; ++a) scale += std::abs(distances[a] * p.n[a]);
         return value > onFace_ * scale ? value : std::min(value, justInside);
     }
 
@@ -139,7 +144,7 @@ private:
         int nPositive = 0;
         for (; face < faceEnd_[0] && nPositive == 0; face += nPositive == 0) nPositive = valuesAt<dim + 1>(face, corners, values);
         if (nPositive == dim + 1) return;
-        if (nPositive == 0) return addPart<dim>(result_, corners, partVolume, volume_);
+        if (nPositive == 0) return addPart<dim>(*result_, corners, partVolume, volume_);
         for (double& v : values) v = -v;
         const SimplexDivision<dim> inside = divideSimplex<dim>(values);
         Point part[dim + 1];
@@ -178,7 +183,7 @@ private:
     /// Of the fluid, or cut by the next solid.
     void leavePart(const Point* corners, double partVolume, int solid)
     {
-        if (solid + 1 == nSolids_) addPart<dim>(result_, corners, partVolume, volume_);
+        if (solid + 1 == nSolids_) addPart<dim>(*result_, corners, partVolume, volume_);
         else cutPart(corners, partVolume, solid + 1, faceEnd_[solid]);
     }
 
@@ -276,9 +281,9 @@ private:
         if (own != ofNormal_) setDescent<dim>(normal_, own, gradN_);
         ofNormal_ = own;
         std::copy(normal_, normal_ + dim, facet.normal);
-        if (result_.facets.empty()) result_.facets.reserve(usualFacets);
+        if (result_->facets.capacity() == 0) result_->facets.reserve(usualFacets);
         facet.solid = solid;
-        result_.facets.push_back(facet);
+        result_->facets.push_back(facet);
     }
 
     const double* distances_;
@@ -288,7 +293,7 @@ private:
     double onFace_;     // of a value over its terms: round-off
     double volume_;
     const double *vertices_, *gradN_;
-    EdgeCut<dim> result_{};
+    EdgeCut<dim>* result_ = nullptr;
     const double* ofNormal_ = nullptr;  // function that normal_ is of: the pieces of a face follow each other
     double normal_[dim];
 };
@@ -316,35 +321,34 @@ void add(const EdgeCut<dim>& part, int solid, EdgeCut<dim>& sum)
 
 /// The solid part has fewer pieces than the fluid, which is the rest of it, unless that is so little that digits were lost.
 template <int dim>
-EdgeCut<dim> cutSimplexAtEdge(const double* distances, int nFaces, double volume, const double* vertices, const double* gradN)
+void cutSimplexAtEdge(const double* distances, int nFaces, double volume, const double* vertices, const double* gradN, EdgeCut<dim>& cut)
 {
-    EdgeCut<dim> cut = EdgeCutter<dim>(distances, &nFaces, 1, volume, vertices, gradN).cutSolid();
-    if (volume - cut.volume < leastRest * volume) return EdgeCutter<dim>(distances, &nFaces, 1, volume, vertices, gradN).cut();
-    takeRest(cut, volume);
-    return cut;
+    EdgeCutter<dim> cutter(distances, &nFaces, 1, volume, vertices, gradN);
+    cutter.cutSolid(cut);
+    if (volume - cut.volume < leastRest * volume) cutter.cut(cut);
+    else takeRest(cut, volume);
 }
 
 template <int dim>
-EdgeCut<dim> cutSimplexOfSolids(const double* distances, const std::vector<int>& faceEnd, double volume, const double* vertices, const double* gradN)
+void cutSimplexOfSolids(const double* distances, const std::vector<int>& faceEnd, double volume, const double* vertices, const double* gradN, EdgeCut<dim>& cut)
 {
-    EdgeCut<dim> cut = EdgeCutter<dim>(distances, faceEnd.data(), static_cast<int>(faceEnd.size()), volume, vertices, gradN).cut();
+    EdgeCutter<dim>(distances, faceEnd.data(), static_cast<int>(faceEnd.size()), volume, vertices, gradN).cut(cut);
     mergePieces<dim>(cut.facets);
-    return cut;
 }
 
 template <int dim>
-EdgeCut<dim> cutSimplexOfApartSolids(const double* distances, const std::vector<int>& faceEnd, double volume, const double* vertices, const double* gradN)
+void cutSimplexOfApartSolids(const double* distances, const std::vector<int>& faceEnd, double volume, const double* vertices, const double* gradN, EdgeCut<dim>& sum, EdgeCut<dim>& part)
 {
-    EdgeCut<dim> sum;
+    sum.clear();
     for (std::size_t solid = 0; solid < faceEnd.size(); ++solid)
     {
         const int start = solid == 0 ? 0 : faceEnd[solid - 1], nFaces = faceEnd[solid] - start;
-        add(EdgeCutter<dim>(distances + start * (dim + 1), &nFaces, 1, volume, vertices, gradN).cutSolid(), static_cast<int>(solid), sum);
+        EdgeCutter<dim>(distances + start * (dim + 1), &nFaces, 1, volume, vertices, gradN).cutSolid(part);
+        add(part, static_cast<int>(solid), sum);
     }
-    if (volume - sum.volume < leastRest * volume) return cutSimplexOfSolids<dim>(distances, faceEnd, volume, vertices, gradN);
+    if (volume - sum.volume < leastRest * volume) return cutSimplexOfSolids<dim>(distances, faceEnd, volume, vertices, gradN, sum);
     takeRest(sum, volume);
     mergePieces<dim>(sum.facets);
-    return sum;
 }
 
 template <int dim>
@@ -360,12 +364,12 @@ void addFacePart(int corner, const double* distances, const std::vector<int>& fa
     facets.insert(facets.end(), parts.begin(), parts.end());
 }
 
-template EdgeCut<2> cutSimplexAtEdge<2>(const double*, int, double, const double*, const double*);
-template EdgeCut<3> cutSimplexAtEdge<3>(const double*, int, double, const double*, const double*);
-template EdgeCut<2> cutSimplexOfSolids<2>(const double*, const std::vector<int>&, double, const double*, const double*);
-template EdgeCut<3> cutSimplexOfSolids<3>(const double*, const std::vector<int>&, double, const double*, const double*);
-template EdgeCut<2> cutSimplexOfApartSolids<2>(const double*, const std::vector<int>&, double, const double*, const double*);
-template EdgeCut<3> cutSimplexOfApartSolids<3>(const double*, const std::vector<int>&, double, const double*, const double*);
+template void cutSimplexAtEdge<2>(const double*, int, double, const double*, const double*, EdgeCut<2>&);
+template void cutSimplexAtEdge<3>(const double*, int, double, const double*, const double*, EdgeCut<3>&);
+template void cutSimplexOfSolids<2>(const double*, const std::vector<int>&, double, const double*, const double*, EdgeCut<2>&);
+template void cutSimplexOfSolids<3>(const double*, const std::vector<int>&, double, const double*, const double*, EdgeCut<3>&);
+template void cutSimplexOfApartSolids<2>(const double*, const std::vector<int>&, double, const double*, const double*, EdgeCut<2>&, EdgeCut<2>&);
+template void cutSimplexOfApartSolids<3>(const double*, const std::vector<int>&, double, const double*, const double*, EdgeCut<3>&, EdgeCut<3>&);
 template bool hasSolidPart<2>(const double*, int, double);
 template bool hasSolidPart<3>(const double*, int, double);
 template void addFacePart<2>(int, const double*, const std::vector<int>&, double, const double*, const double*, std::vector<SimplexFacet<2>>&);

@@ -201,7 +201,8 @@ void CoverBuilder::cutElementOfSolids(Cover& cover, const std::vector<Solid>& so
     cover.state[element] = isDeepIn(cover.distance, element) ? ElementState::Solid : ElementState::Fluid;
     if (cover.state[element] == ElementState::Solid) return;
     cutting_.clear();
-    std::vector<int> solidOf; // of the parts
+    std::vector<int>& solidOf = solidOfPart_;
+    solidOf.clear();
     const SharpPart* end = sharpParts_.data() + sharpParts_.size();
     for (const SharpPart* part = partsIn(element); part != end && part->element == element; ++part)
     {
@@ -215,7 +216,7 @@ void CoverBuilder::cutElementOfSolids(Cover& cover, const std::vector<Solid>& so
     if (sharpElement_[element] == SharpElement::Apart && are.solidsApart && isOfSharpAlone(others, element)) sharpElement_[element] = SharpElement::Clear;
     if (cutting_.isApart()) return;
     cutPatchFaces<dim>(cover, element, cutting_);
-    const EdgeCut<dim> cut = cutAtEdge<dim>(cutting_, element, are.partsApart);
+    const EdgeCut<dim>& cut = cutAtEdge<dim>(cutting_, element, are.partsApart);
     storeCut<dim>(cover, solids, element, cut, cut.facets.data(), static_cast<int>(cut.facets.size()), solidOf.data());
 }
 template void CoverBuilder::cutElementOfSolids<2>(Cover&, const std::vector<Solid>&, int) const;

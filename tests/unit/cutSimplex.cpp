@@ -18,6 +18,14 @@ namespace
 {
 
 template <int dim>
+EdgeCut<dim> cutAtEdge(const double* distances, int nFaces, double volume, const double* vertices, const double* gradN)
+{
+    EdgeCut<dim> cut;
+    cutSimplexAtEdge<dim>(distances, nFaces, volume, vertices, gradN, cut);
+    return cut;
+}
+
+template <int dim>
 struct Simplex
 {
     using Vector = Eigen::Matrix<double, dim, 1>;
@@ -235,8 +243,8 @@ TEST_CASE_TEMPLATE("two faces, one after the other or in the other order: the sa
             values[dim + 1 + a] = swapped[a] = uniform(generator);
             values[2 * (dim + 1) + a] = swapped[dim + 1 + a] = -1;
         }
-        const EdgeCut<dim> one = cutSimplexAtEdge<dim>(values, 3, simplex.volume, simplex.vertices, simplex.gradN);
-        const EdgeCut<dim> other = cutSimplexAtEdge<dim>(swapped, 3, simplex.volume, simplex.vertices, simplex.gradN);
+        const EdgeCut<dim> one = cutAtEdge<dim>(values, 3, simplex.volume, simplex.vertices, simplex.gradN);
+        const EdgeCut<dim> other = cutAtEdge<dim>(swapped, 3, simplex.volume, simplex.vertices, simplex.gradN);
         double worst = std::abs(one.volume - other.volume), areas = 0;
         for (int m = 0; m < (dim + 1) * (dim + 1); ++m) worst = std::max(worst, std::abs(one.second[m] - other.second[m]));
         CHECK(worst < 1e-13 * simplex.volume);
@@ -298,14 +306,15 @@ TEST_CASE_TEMPLATE("solids apart from each other are cut one by one as they are 
             apart[2 * n + a] = -plane[a] + gap;         // 2, 3: of the second
             apart[3 * n + a] = uniform(generator);
         }
-        const EdgeCut<dim> one = cutSimplexOfApartSolids<dim>(apart, {2, 4}, simplex.volume, simplex.vertices, simplex.gradN);
-        const EdgeCut<dim> other = cutSimplexOfSolids<dim>(apart, {2, 4}, simplex.volume, simplex.vertices, simplex.gradN);
+        EdgeCut<dim> one, other, part;
+        cutSimplexOfApartSolids<dim>(apart, {2, 4}, simplex.volume, simplex.vertices, simplex.gradN, one, part);
+        cutSimplexOfSolids<dim>(apart, {2, 4}, simplex.volume, simplex.vertices, simplex.gradN, other);
         worst = std::max(worst, differenceOf(simplex, one, other, 2));
         CHECK_FALSE(hasSolidPart<dim>(apart, 4));
         double solid = simplex.volume - one.volume;
         for (int k = 0; k < 2; ++k)
         {
-            const EdgeCut<dim> alone = cutSimplexAtEdge<dim>(apart + 2 * k * n, 2, simplex.volume, simplex.vertices, simplex.gradN);
+            const EdgeCut<dim> alone = cutAtEdge<dim>(apart + 2 * k * n, 2, simplex.volume, simplex.vertices, simplex.gradN);
             CHECK(hasSolidPart<dim>(apart + 2 * k * n, 2) == (simplex.volume - alone.volume > 1e-13 * simplex.volume));
             solid -= simplex.volume - alone.volume;
             nBoth += alone.volume < simplex.volume;
@@ -326,7 +335,7 @@ TEST_CASE("the corner of a box in an element with all nodes outside")
     // solid: x > 0.2, y > 0.3, z > 0.1 in the unit simplex, a corner of side 0.4
     const Simplex<3> simplex = unitSimplex<3>();
     const double values[12] = {0.2, -0.8, 0.2, 0.2, 0.3, 0.3, -0.7, 0.3, 0.1, 0.1, 0.1, -0.9};
-    const EdgeCut<3> cut = cutSimplexAtEdge<3>(values, 3, simplex.volume, simplex.vertices, simplex.gradN);
+    const EdgeCut<3> cut = cutAtEdge<3>(values, 3, simplex.volume, simplex.vertices, simplex.gradN);
     CHECK(simplex.volume - cut.volume == near(0.064 / 6, 1e-14));
     Eigen::Vector3d areas = Eigen::Vector3d::Zero();
     double first = 0;
