@@ -168,6 +168,6 @@ TEST_CASE("a step takes next to nothing from the heap")
 
 TEST_CASE("with bodies it takes some for each")
 {
-    CHECK(withBodies(1) < 150);
-    CHECK(withBodies(3) < 210);
+    CHECK(withBodies(1) < 110);
+    CHECK(withBodies(3) < 130);
 }
