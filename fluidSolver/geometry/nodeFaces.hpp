@@ -4,6 +4,7 @@
 
 #include "geometry/wallFilm.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace flotsam
@@ -33,14 +34,24 @@ public:
     double distance(int node, const Solid& solid);
 
 private:
-    struct Row { const Solid* solid; int node, next, nFaces; double distances[maxFaces]; };   // next: of another solid at the node, -1: none
+    struct Row { int nFaces; double distances[maxFaces]; };
+    /// Solids at a node and their rows, side by side: most of a search in many bodies would be the way to rows that are not wanted.
+    struct alignas(64) Block
+    {
+        static constexpr int size = 4;
+        std::array<const Solid*, size> solid;
+        std::array<int, size> row;
+        int node, n, next;      // next: block that goes on, -1: none
+    };
 
-    void evaluate(Row& row, int part) const;
+    int add(int node, const Solid& solid, int last);
+    void evaluate(Row& row, int node, const Solid& solid, int part) const;
 
     const SimplexMesh& mesh_;
     const WallFilm& film_;
     const std::vector<double>& snap_;
-    std::vector<int> position_;     // nNodes: of the newest row in rows_, -1: none
+    std::vector<int> position_;     // nNodes: of the first block, -1: none
+    std::vector<Block> blocks_;
     std::vector<Row> rows_;
 };
 
