@@ -27,17 +27,20 @@ CriticalLevel::CriticalLevel(const PatchNodes& patch, const Halo& halo, const st
 {
     const SimplexMesh& mesh = *patch.mesh;
     const int dim = mesh.dim;
-    for (std::size_t k = 0; k < patch.faceArea.size(); ++k) normal_[k%dim] += patch.faceArea[k];
-    halo.sum(normal_.data(), dim);
-    const double area = std::sqrt(dot(normal_.data(), normal_.data(), dim));
-    if (area <= 0) return;
-    double along[3];
-    for (int d = 0; d < dim; ++d) normal_[d] /= area;
-    for (int d = 0; d < dim; ++d) along[d] = gravity[mesh.axes[d]];
-    const double through = dot(along, normal_.data(), dim), whole = std::sqrt(dot(along, along, dim));
-    for (int d = 0; d < dim; ++d) along[d] -= through*normal_[d];
-    const double inPlane = std::sqrt(dot(along, along, dim));
-    if (inPlane < 1e-6*whole || whole == 0) return;
+    double whole[3], along[4] = {};     // of gravity what lies in the faces, mean over them; their area
+    for (int d = 0; d < dim; ++d) whole[d] = gravity[mesh.axes[d]];
+    for (std::size_t f = 0; f < patch.faceArea.size(); f += dim)
+    {
+        const double *faceArea = &patch.faceArea[f], area = std::sqrt(dot(faceArea, faceArea, dim));
+        if (area <= 0) continue;
+        for (int d = 0; d < dim; ++d) along[d] += area*whole[d] - dot(whole, faceArea, dim)/area*faceArea[d];
+        along[3] += area;
+    }
+    halo.sum(along, 4);
+    if (along[3] <= 0) return;
+    for (int d = 0; d < dim; ++d) along[d] /= along[3];
+    const double inPlane = std::sqrt(dot(along, along, dim)), strength = std::sqrt(dot(whole, whole, dim));
+    if (inPlane < 1e-6*strength || strength == 0) return;
     gravity_ = inPlane;
     lowest_ = 1e300;
     highest_ = -1e300;
@@ -61,16 +64,20 @@ double CriticalLevel::below(double level, std::size_t node) const
     return std::clamp(0.5 + (level - height_[node])/size_[node], 0.0, 1.0);
 }
 
-/// Across the stream, below equidistant levels from the lowest to the highest node [m^2].
+/// Across the stream, which enters along the normals of the nodes, below equidistant levels from the lowest to the highest node [m^2]. Not across the patch's mean normal: a patch at
+/// both ends of a channel has none.
 std::array<double, CriticalLevel::nLevels> CriticalLevel::areas(const Cover* cover) const
 {
     const int dim = patch_.mesh->dim;
     std::array<double, nLevels> result{};
     const auto addFace = [&](std::size_t f, const double* shares)
     {
-        const double across = dot(&patch_.faceArea[f*dim], normal_.data(), dim);
         for (int k = 0; k < dim; ++k)
-            for (int m = 0; m < nLevels; ++m) result[m] += across*shares[k]*below(lowest_ + (highest_ - lowest_)*m/(nLevels - 1), patch_.faceNodes[f*dim + k]);
+        {
+            const std::size_t node = patch_.faceNodes[f*dim + k];
+            const double across = dot(&patch_.faceArea[f*dim], &patch_.normal[node*dim], dim);
+            for (int m = 0; m < nLevels; ++m) result[m] += across*shares[k]*below(lowest_ + (highest_ - lowest_)*m/(nLevels - 1), node);
+        }
     };
     for (std::size_t f = 0; f*dim < patch_.faceNodes.size(); ++f)
     {

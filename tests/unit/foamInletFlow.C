@@ -65,6 +65,21 @@ TEST_CASE("an inlet whose level floats does not fall below the critical one")
             }
 }
 
+TEST_CASE("an inlet at both ends of a channel, whose normals cancel, has the critical level of half of the flow at each")
+{
+    for (const double depth : {0.21, 0.3})
+    {
+        constexpr double gravity = 10, width = 0.1;
+        const double speed = std::sqrt(gravity*depth);
+        BoundaryScene s(Edits{inletOnTwoRanks, {"system/blockMeshDict", "faces ((0 4 7 3)); }", "faces ((0 4 7 3) (1 2 6 5)); }"}, {"system/blockMeshDict", "outlet { type patch; faces ((1 2 6 5)); }", ""},
+            {"0/U", inletU, "type variableHeightFlowRateInletVelocity; alpha alpha.water; flowRate " + std::to_string(speed*depth*2*width) + "; value uniform (0 0 0);"}});
+        std::fill(s.alpha.begin(), s.alpha.end(), 0.0);
+        double fastest = 0;
+        for (const double u : inflow(s.values("inlet"))) fastest = std::max(fastest, std::abs(u));
+        CHECK(s.halo.max(fastest) == near(speed, 0.005));
+    }
+}
+
 TEST_CASE("a flow rate enters above what covers the lower part of the patch")
 {
     for (const double height : {0.37, 0.4, 0.02, 0.999})
