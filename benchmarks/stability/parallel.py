@@ -50,7 +50,7 @@ def _replaced(text, entry, value):
 def _run(seed, number, options, root, n, beginning):
     s = scenes.scene(seed, number)
     s.seed = seed
-    s.options += [options.options] * bool(options.options) + [f"tolerance {ranks.TOLERANCE:g}; maxIterations 2000;"] * beginning
+    s.options += [options.options] * bool(options.options) + [ranks.CONVERGED] * beginning
     case = DividedCase(s, root, n, options.division, beginning)
     limit = options.limit or (600 if s.family in scenes.APART else 60) * n
     parallel = {"launcher": ranks.launcher(n), "arguments": ["-parallel"]} if n > 1 else {}
@@ -73,10 +73,10 @@ def one(seed, number, options, root):
         if begin["status"] != "ok":
             notes.append(f"beginning: {begin['status']}")
     if not notes:
-        found, steps, allowed = ranks.difference(s, root, *(begin["folder"] for _, _, begin in begun))
+        found, steps = ranks.difference(s, root, *(begin["folder"] for _, _, begin in begun))
         worst = max(found, key=found.get) if found else ""
         row["alike"] = f"{found[worst]:.1e} ({worst})" if found else f"{steps[0]} and {steps[1]} steps"
-        if not found or not found[worst] <= allowed:
+        if not found or not found[worst] <= ranks.ALIKE:
             notes.append("beginning " + row["alike"])
     row["verdict"] = "; ".join([v for v in (table.verdict(row),) if v != "passed" or not notes] + notes)
     if row["verdict"] == "passed" and not options.keep and not options.number:
