@@ -56,11 +56,12 @@ void FlowEquation::setMaterials()
         nodal_.rhoOlder[i] = fluid_.isTwoPhase ? density(fluid_, controls_, s.alphaOlder[i]) : nodal_.rho[i];
         nodal_.mu[i] = viscosity(fluid_, controls_, alpha);
     }
-    // by the phase, not by densities: those of two fluids may be the same
+    // Two fluids of one density are one here; by the phase, not by densities, which differ by round-off then
+    const bool hasTwo = fluid_.isTwoPhase && fluid_.rhoLiquid != fluid_.rhoGas;
     const auto isAlways = [&](int i, double share)
     {
-        return fluid_.isTwoPhase ? liquidShare(controls_, s.alpha[i]) == share && liquidShare(controls_, s.alphaOld[i]) == share && liquidShare(controls_, s.alphaOlder[i]) == share
-                                 : share == 1;
+        return hasTwo ? liquidShare(controls_, s.alpha[i]) == share && liquidShare(controls_, s.alphaOld[i]) == share && liquidShare(controls_, s.alphaOlder[i]) == share
+                      : share == 1;
     };
     for (int i = 0; i < mesh_.nNodes; ++i) nodal_.fluid[i] = isAlways(i, 1) ? NodalData::Liquid : isAlways(i, 0) ? NodalData::Gas : NodalData::Mixed;
     const TimeScheme& t = step_.time;

@@ -18,6 +18,7 @@ void MassFluxes::setShares(const std::vector<double>& alphaOld, const std::vecto
 
 bool MassFluxes::isVarying(int element) const
 {
+    if (fluid_.rhoLiquid == fluid_.rhoGas) return false;
     const int n = mesh_.dim + 1;
     const int* nodes = &mesh_.elements[std::size_t(element)*n];
     const double first = share_[nodes[0]][0];

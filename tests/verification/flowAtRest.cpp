@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -182,7 +183,7 @@ TEST_CASE("a released cylinder starts with the added-mass acceleration at any de
     }
 }
 
-TEST_CASE("two fluids of the same density and other viscosities flow as those whose densities differ by 1e-9 of it")
+TEST_CASE("two fluids of the same density and other viscosities: round-off of the phase does not change the flow")
 {
     usePetsc();
     const SimplexMesh mesh = makeBoxMesh(MPI_COMM_WORLD, 2, {24, 24, 1}, {-1, -1, 0}, {1, 1, 1}, 0.1);
@@ -190,11 +191,12 @@ TEST_CASE("two fluids of the same density and other viscosities flow as those wh
     NumericsControls controls;
     controls.tolerance = 1e-12;
     std::vector<std::vector<double>> u;
-    for (const double lighter : {0.0, 1e-9})
+    for (const double change : {0.0, 1e-12})
     {
         FluidProperties f = singleFluid(1);
         f.isTwoPhase = true;
-        f.rhoGas = (1 - lighter)*f.rhoLiquid;
+        f.rhoLiquid = f.rhoGas = 998.2;
+        f.muLiquid = 0.5;
         f.muGas = 60*f.muLiquid;
         FlowState state = restState(mesh);
         for (std::size_t i = 0; i < std::size_t(mesh.nNodes); ++i)
@@ -203,7 +205,7 @@ TEST_CASE("two fluids of the same density and other viscosities flow as those wh
             const double x = 0.5*M_PI*mesh.x[2*i], y = 0.5*M_PI*mesh.x[2*i + 1];
             state.u[2*i] = -std::pow(std::cos(x), 2)*std::sin(2*y);
             state.u[2*i + 1] = std::sin(2*x)*std::pow(std::cos(y), 2);
-            state.alpha[i] = mesh.x[2*i + 1] < 0.01;
+            state.alpha[i] = std::clamp(0.5 + (0.01 - mesh.x[2*i + 1])/0.3, 0.0, 1.0)*(1 - change*double(i % 7));
         }
         Fluid fluid(mesh, halo, f, controls, allPatches(mesh, BoundaryPatch::Velocity::Fixed));
         fluid.start(state, true);
