@@ -12,6 +12,8 @@ import numpy as np
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tutorials", "common"))
 import driftwood  # noqa: E402
 import flotsam  # noqa: E402
+import flotsamScene  # noqa: E402
+import vtk  # noqa: E402
 
 LENGTH, WIDTH, HEIGHT = 2.0, 0.5, 1.0
 LEVEL = 0.4375  # in the middle of a cell of height 0.125
@@ -161,6 +163,38 @@ class BodyHistory(unittest.TestCase):
             with self.assertRaisesRegex(flotsam.CaseError, "right.dat: no such file; there are: left.dat"):
                 flotsam.stepTable(folder, "restraints", "right.dat")
         np.testing.assert_array_equal(table, [[1, 0], [2, 0], [3.5, 2], [4, 2], [5, 2], [11, 10]])
+
+    def test_outside_of_the_water_has_no_faces_within_it(self):
+        """Columns of a hexahedron and a polyhedron, as snappyHexMesh makes them, side by side and half full."""
+        grid, points, level, corners = vtk.vtkUnstructuredGrid(), vtk.vtkPoints(), vtk.vtkDoubleArray(), {}
+        level.SetName("water")
+        for x in range(4):
+            for y in range(2):
+                for z in range(3):
+                    corners[x, y, z] = points.InsertNextPoint(x, y, z)
+                    level.InsertNextValue(1.25 - 0.5 * z)   # 0.5 at z = 1.5
+        grid.SetPoints(points)
+        grid.GetPointData().AddArray(level)
+        for x in range(3):
+            for z in range(2):
+                p = [corners[x + i, j, z + k] for i, j, k in ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))]
+                faces = [[p[i] for i in face] for face in ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (2, 3, 7, 6), (0, 4, 7, 3), (1, 2, 6, 5))]
+                if x != 1:
+                    grid.InsertNextCell(vtk.VTK_HEXAHEDRON, 8, p)
+                    continue
+                stream = vtk.vtkIdList()
+                for n in [len(faces)] + [n for face in faces for n in [len(face)] + face]:
+                    stream.InsertNextId(n)
+                grid.InsertNextCell(vtk.VTK_POLYHEDRON, stream)
+        read, flotsam.grid = flotsam.grid, lambda case, time: grid
+        try:
+            body = flotsamScene.waterBody("", 0, alpha="water")
+        finally:
+            flotsam.grid = read
+        triangles, mass = vtk.vtkTriangleFilter(), vtk.vtkMassProperties()
+        triangles.SetInputData(body)
+        mass.SetInputConnection(triangles.GetOutputPort())
+        self.assertAlmostEqual(mass.GetSurfaceArea(), 2 * (3 * 1 + 3 * 1.5 + 1 * 1.5), 6)    # of a box of 3 x 1 x 1.5
 
     def test_largest_mean_over_a_second(self):
         time = np.linspace(0, 4, 401)

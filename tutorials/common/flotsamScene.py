@@ -83,16 +83,25 @@ def _surface(data):
 
 
 def waterBody(case, time, alpha=flotsam.ALPHA, level=0.5):
-    """vtkPolyData: the closed outside of the water (alpha > level), with the walls it stands at."""
+    """vtkPolyData: the closed outside of the water (alpha > level), with the walls it stands at.
+
+    Its free surface and the wet part of the mesh's outside, each on its own: the outside of a clipped mesh would have faces within the water wherever
+    polyhedra (of snappyHexMesh) are divided otherwise than their neighbours."""
     mesh = flotsam.grid(case, time)
     if not mesh.GetPointData().HasArray(alpha):
         raise flotsam.CaseError(f"{case}: no field {alpha} at time {time}")
-    clip = vtk.vtkTableBasedClipDataSet()
-    clip.SetInputData(mesh)
-    clip.SetInputArrayToProcess(0, 0, 0, vtk.vtkDataObject.FIELD_ASSOCIATION_POINTS, alpha)
-    clip.SetValue(level)
-    clip.Update()
-    return _surface(clip.GetOutput())
+    mesh.GetPointData().SetActiveScalars(alpha)
+    free = vtk.vtkContourFilter()
+    free.SetInputData(mesh)
+    free.SetValue(0, level)
+    wet = vtk.vtkClipPolyData()
+    wet.SetInputData(_surface(mesh))
+    wet.SetValue(level)
+    both = vtk.vtkAppendPolyData()
+    both.AddInputConnection(free.GetOutputPort())
+    both.AddInputConnection(wet.GetOutputPort())
+    both.Update()
+    return both.GetOutput()
 
 
 def memberSurfaces(history, time):
