@@ -69,6 +69,24 @@ TEST_CASE("restore continues to the same bits, in this engine and in a new one")
     }
 }
 
+TEST_CASE("restore goes back to the same bits from where nothing is near any more")
+{
+    DemSetup setup = scene({ball(0.01, 0.05, Vec3::Zero()), ball(0.01, 0.05, Vec3(0.021, 0, 0))}, {plane(Vec3(0, 0, -0.02), Vec3::UnitZ())});
+    setup.bodies[1].motion.velocity = Vec3(-1, 0.1, 0);
+    LiggghtsEngine engine(setup);
+    engine.setLoads({Load(), Load()});
+    for (int i = 0; i < 100 && !engine.hasContact(); ++i)
+        engine.advance(2e-4);
+    REQUIRE(engine.hasContact());
+    const DemState state = engine.save();
+    advance(engine, 100, 5e-3); // half a metre apart
+    const auto first = numbersOf(engine);
+    engine.restore(state);
+    CHECK(engine.save().data == state.data);
+    advance(engine, 100, 5e-3);
+    CHECK(numbersOf(engine) == first);
+}
+
 TEST_CASE("a predictor step leaves no trace")
 {
     const DemSetup setup = heap(6, true);
