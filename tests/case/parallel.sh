@@ -45,7 +45,7 @@ case $1 in
         sed -i '/^bodies$/,$d' serial/constant/bodies
         ranks=3
         divide serial 3 '(i*i + int(i/7)) % 3'
-        tolerance=1e-12 allowed=5e-8
+        tolerance=1e-13 allowed=5e-8    # with 1e-12 the solves leave 7e-8 of a pressure
         ;;
     *) fail "2D, 3D, few, edge, alone or steep" ;;
 esac
