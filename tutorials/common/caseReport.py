@@ -3,7 +3,6 @@
 import argparse
 import json
 import os
-import re
 import sys
 
 import clogging
@@ -159,21 +158,11 @@ def _plotLiquid(axis, h):
     axis.set(ylabel="liquid [m3]")
 
 
-def emptyAxis(case):
-    """The axis across a 2D mesh; None in 3D. From the shape of the written mesh and its empty patches."""
-    folder = flotsam._parts(case)[0]
-    with open(os.path.join(folder, "constant", "polyMesh", "boundary"), encoding="utf-8", errors="replace") as file:
-        if not re.search(r"type\s+empty;\s*(inGroups[^;]*;\s*)?nFaces\s+[1-9]", file.read()):
-            return None
-    bounds = flotsam.grid(case, flotsam.nearestTime(case, "last")).GetBounds()
-    return int(np.argmin([bounds[2 * d + 1] - bounds[2 * d] for d in range(3)]))
-
-
 def draw(case, h, wanted, folder):
     written = flotsam.times(case)
     if not written:
         return []
-    across = emptyAxis(case)
+    across = flotsam.emptyAxis(case)
     names = []
     for time in dict.fromkeys(flotsam.nearestTime(case, t) for t in wanted or [h.time[-1] / 3, 2 * h.time[-1] / 3, h.time[-1]]):
         names.append(f"scene_{time:g}s.png")

@@ -7,6 +7,7 @@ import itertools
 import json
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -102,7 +103,7 @@ def run(options, folder, values):
         steps = [options.command] if options.command else [[tool] for tool, file in STEPS if os.path.isfile(os.path.join(folder, file))] + [["flotsamFoam"]]
         for step in steps:
             execute(folder, step, "log." + ("command" if options.command else step[0]))
-        execute(folder, f"{sys.executable} {os.path.join(os.path.dirname(os.path.abspath(__file__)), 'caseReport.py')} --no-pictures {options.report}", "log.flotsamReport")
+        execute(folder, [sys.executable, os.path.join(os.path.dirname(os.path.abspath(__file__)), "caseReport.py"), "--no-pictures", *shlex.split(options.report)], "log.flotsamReport")
         print(f"{folder}: done", flush=True)
     with open(report, encoding="utf-8") as file:
         return Member(folder, values, json.load(file))

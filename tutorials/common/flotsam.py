@@ -6,6 +6,7 @@ Needs no OpenFOAM: python3-vtk9, python3-h5py, python3-numpy. Pictures are in fl
 
 import functools
 import os
+import re
 import sys
 
 try:
@@ -140,6 +141,16 @@ def grid(case, time):
     folders = _parts(case, time)
     folder = os.path.join(folders[0], _timeFolders(folders[0])[time])
     return _grid(case, time, tuple(folders), os.path.getmtime(folder))
+
+
+def emptyAxis(case):
+    """The axis across a 2D mesh; None in 3D. From the shape of the written mesh and its empty patches."""
+    folder = _parts(case)[0]
+    with open(os.path.join(folder, "constant", "polyMesh", "boundary"), encoding="utf-8", errors="replace") as file:
+        if not re.search(r"type\s+empty;\s*(inGroups[^;]*;\s*)?nFaces\s+[1-9]", file.read()):
+            return None
+    bounds = grid(case, nearestTime(case, "last")).GetBounds()
+    return int(np.argmin([bounds[2 * d + 1] - bounds[2 * d] for d in range(3)]))
 
 
 def _array(data, name, what):
