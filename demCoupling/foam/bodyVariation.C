@@ -147,7 +147,8 @@ std::vector<MemberVariation> drawVariations(const Foam::dictionary& group, int c
         if (!variation.found(quantity.keyword)) continue;
         checkFits(variation, quantity, type);
         const Distribution distribution = readDistribution(subGroup(variation, quantity.keyword));
-        RandomNumbers numbers(seed*quantities().size() + k);
+        constexpr std::size_t room = 16;    // for quantities that may come: what is drawn stays
+        RandomNumbers numbers(seed*room + k);
         std::vector<double> drawn;
         for (MemberVariation& member : members)
         {

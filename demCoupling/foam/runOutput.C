@@ -14,6 +14,13 @@ namespace flotsam
 namespace
 {
 
+/// Of the box around a shape in its frame [m].
+Vec3 sizeOf(const Shape& shape)
+{
+    const auto [lower, upper] = shape.bounds();
+    return upper - lower;
+}
+
 /// Of curved bodies, for the animated surface [m]: large bodies in few facets, slender and flat ones round.
 double facetSize(const BodyDefinition& body)
 {
@@ -25,9 +32,9 @@ std::vector<HistoryMember> makeMembers(const BodiesInput& input)
 {
     std::vector<HistoryMember> members;
     for (const StructureDefinition& s : input.structures)
-        members.push_back({s.solid.name, true, 0, s.solid.shape->moments().volume, s.solid.shape->surface(s.facetSize)});
+        members.push_back({s.solid.name, true, 0, s.solid.shape->moments().volume, s.solid.shape->surface(s.facetSize), sizeOf(*s.solid.shape).maxCoeff(), sizeOf(*s.solid.shape).minCoeff()});
     for (const BodyDefinition& b : input.bodies)
-        members.push_back({b.name, false, b.mass, b.volume, b.shape->surface(facetSize(b))});
+        members.push_back({b.name, false, b.mass, b.volume, b.shape->surface(facetSize(b)), sizeOf(*b.shape).maxCoeff(), b.thinnest});
     return members;
 }
 

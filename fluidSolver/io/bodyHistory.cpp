@@ -149,6 +149,8 @@ void BodyHistory::Implementation::create()
         out.link("/run/time", group + "time");
         out.setAttribute(groupOf(members[m]), "mass", members[m].mass);
         out.setAttribute(groupOf(members[m]), "volume", members[m].volume);
+        out.setAttribute(groupOf(members[m]), "longest", members[m].longest);
+        out.setAttribute(groupOf(members[m]), "thinnest", members[m].thinnest);
         out.setAttribute(groupOf(members[m]), "member", std::int64_t(m)); // number in /surface/member
     }
     surface.create(out);

@@ -34,6 +34,7 @@ struct HistoryMember
     double mass = 0;        ///< [kg], 0 for structures
     double volume = 0;      ///< [m^3]
     TriSurface surface;     ///< in the body frame
+    double longest = 0, thinnest = 0;   ///< extents of the shape [m]
 };
 
 /// Written by rank 0. Records are kept in memory and written in blocks (every 64 records or every second of wall time, with many members less often, at

@@ -28,7 +28,7 @@ class History:
         for name, way in ways.items():
             start, end = (come or {}).get(name, -1), (gone or {}).get(name, np.inf)
             s = np.array([way(min(max(t, start), end)) for t in time])
-            self._members["bodies/" + name] = types.SimpleNamespace(position=s[:, None] * DOWNSTREAM, awaited=(time < start) * 1.0, left=(time >= end) * 1.0)
+            self._members["bodies/" + name] = types.SimpleNamespace(longest=len(name), position=s[:, None] * DOWNSTREAM, awaited=(time < start) * 1.0, left=(time >= end) * 1.0)
         for k in range(2):
             self._members[f"structures/rack.{k}"] = types.SimpleNamespace(number=k, fluidForce=np.outer(time, [0, -1, k]), contactForce=np.outer(time > 1, [0, -3, 0]),
                                                                           peakContactForce=np.outer(np.where(np.abs(time - 2) < 1e-9, 10 + k, 1), [0, -1, 0]))
@@ -58,6 +58,8 @@ class Clogging(unittest.TestCase):
         self.assertEqual([at("never", t) for t in (0, 8)], ["awaited"] * 2)
         self.assertEqual([at("goes", t) for t in (3, 5, 8)], ["coming", "passed", "passed"])    # it left downstream
         self.assertEqual([at("strays", t) for t in (0.9, 1.1, 8)], ["coming", "left", "left"])
+        self.assertEqual(clogging.meanLongest(h, fate.passed[:, -1]), np.mean([len("passes"), len("goes")]))
+        self.assertIsNone(clogging.meanLongest(h, fate.passed[:, 0]))
         share = clogging.retention(fate)
         self.assertTrue(np.isnan(share[0]))
         self.assertAlmostEqual(share[-1], 2 / 4)

@@ -128,7 +128,7 @@ class BodyHistory(unittest.TestCase):
             subprocess.run([PROGRAM, os.path.join(folder, "bodies.h5")], check=True)
             h = flotsam.history(folder)
         self.assertEqual((h.bodies, h.structures), (["bar"], ["post"]))
-        self.assertEqual((h["bar"].mass, h["post"].volume), (0.5, 2e-3))
+        self.assertEqual((h["bar"].mass, h["post"].volume, h["bar"].longest, h["bar"].thinnest), (0.5, 2e-3, 1.5, 0.25))
         np.testing.assert_allclose(h["bar"].position[:, 0], h.time)
         np.testing.assert_allclose(h["bar"].orientation[-1], [1, 0, 0, 0])
         np.testing.assert_allclose(h.at("bar", "position", 0.123), [0.123, 0, 0])

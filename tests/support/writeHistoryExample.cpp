@@ -17,7 +17,7 @@ int main(int argc, char** argv)
     TriSurface tetrahedron;
     tetrahedron.points = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
     tetrahedron.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-    const std::vector<HistoryMember> members{{"bar", false, 0.5, 1e-3, tetrahedron}, {"post", true, 0, 2e-3, tetrahedron}};
+    const std::vector<HistoryMember> members{{"bar", false, 0.5, 1e-3, tetrahedron, 1.5, 0.25}, {"post", true, 0, 2e-3, tetrahedron}};
     BodyHistory history(argv[1], members, 0, {"mooring"});
     for (int i = 0; i <= 100; ++i)
     {

@@ -15,11 +15,12 @@ class CaseError(RuntimeError):
 
 
 class Member:
-    """Series of one body or structure member: m.position (n x 3), m.fluidForce, ...; m.mass, m.volume; m.time."""
+    """Series of one body or structure member: m.position (n x 3), m.fluidForce, ...; m.mass, m.volume, extents m.longest, m.thinnest; m.time."""
 
     def __init__(self, group):
         self.mass = float(group.attrs.get("mass", 0))
         self.volume = float(group.attrs.get("volume", 0))
+        self.longest, self.thinnest = (float(group.attrs.get(name, np.nan)) for name in ("longest", "thinnest"))    # not in files of older versions
         self.number = int(group.attrs.get("member", -1))
         for name in group:
             setattr(self, name, group[name][...])

@@ -48,6 +48,7 @@ def evaluate(h, series, options):
     if h.bodies and zone:
         fate = clogging.fates(h, zone, direction)
         figures["bodies"].update(_ofFate(h, fate, zone))
+        figures["bodies"]["longest"] = {name: clogging.meanLongest(h, getattr(fate, name)[:, -1]) for name in ("held", "passed")}
     return figures, fate
 
 
@@ -88,6 +89,8 @@ def page(case, figures, pictures):
         rows += [("still to come in; on their way", f"{bodies['awaited']}; {bodies['coming']}", ""), ("held at the end; most at a time", f"{bodies['held']}; {bodies['mostHeld']}", ""),
                  ("passed; left the mesh elsewhere", f"{bodies['passed']}; {bodies['left']}", ""),
                  ("first held", bodies["firstHeld"] if bodies["firstHeld"] is not None else "never", "s")]
+    if bodies and "longest" in bodies and all(bodies["longest"].values()):
+        rows.append(("mean longest extent of those held; passed", "{held:.4g}; {passed:.4g}".format(**bodies["longest"]), "m"))
     if bodies and "retention" in bodies:
         low, high = bodies["confidence"]
         rows.append(("held of those that came", f"{100 * bodies['retention']:.0f} ({100 * low:.0f} to {100 * high:.0f})", "%"))

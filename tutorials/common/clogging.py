@@ -94,6 +94,12 @@ def retention(fate):
     return np.where(came > 0, fate.held.sum(0) / np.maximum(came, 1), np.nan)
 
 
+def meanLongest(h, isMeant):
+    """Mean of the longest extents of some bodies [m]: which logs a rack lets through. None where there are none, or the file does not say."""
+    extents = [h["bodies/" + name].longest for name, isOne in zip(h.bodies, isMeant) if isOne]
+    return float(np.mean(extents)) if extents and np.isfinite(extents).all() else None
+
+
 def confidence(held, came):
     """Of a share that was found with so many: the interval that holds the true one in 95 of 100 cases, were bodies independent (Wilson 1927, doi 10.2307/2276774)."""
     z = 1.959964
