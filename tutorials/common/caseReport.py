@@ -94,7 +94,8 @@ def page(case, figures, pictures):
     if bodies and "retention" in bodies:
         low, high = bodies["confidence"]
         rows.append(("held of those that came", f"{100 * bodies['retention']:.0f} ({100 * low:.0f} to {100 * high:.0f})", "%"))
-    rows.append(("the stream is along", stream, ""))
+    if bodies or figures["forces"]:
+        rows.append(("the stream is along", stream, ""))
     lines = [f"# {os.path.basename(os.path.abspath(case))}", "", "| | | |", "|---|---|---|"] + [f"| {what} | {_shown(value)} | {unit} |" for what, value, unit in rows]
     if figures["forces"]:
         lines += _forceTable(figures)
