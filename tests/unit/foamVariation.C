@@ -165,6 +165,19 @@ TEST_CASE("scale: all lengths of any shape; after length")
     CHECK(both.bodies[0].volume == near(M_PI*0.04*0.04*0.3, 1e-10));
 }
 
+TEST_CASE("2D: diameters differ in the plane; what would leave the mesh's thickness is refused")
+{
+    BodiesScene s(false);
+    const auto disc = [](const std::string& variation)
+    { return varied(variation, "shape { type cylinder; end1 (0 0 0); end2 (0 0 0.1); radius 0.02; } density 600; array { count (3 1 1); spacing (0.3 0 0); } position (0.5 0.5 0); "); };
+    const BodiesInput input = s.read(disc(diameters));
+    REQUIRE(input.bodies.size() == 3);
+    for (const BodyDefinition& body : input.bodies) CHECK(body.mass == near(600*0.1*M_PI*0.25*body.thinnest*body.thinnest, 1e-9));
+    CHECK(input.bodies[0].thinnest != input.bodies[1].thinnest);
+    for (const char* variation : {"scale { type values; values (2); } ", "length { type values; values (0.08); } "})
+        CHECK(has(s.message(disc(variation)), "must reach through the mesh from front to back"));
+}
+
 TEST_CASE("what is wrong with a variation is said")
 {
     BodiesScene s;

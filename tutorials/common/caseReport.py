@@ -73,7 +73,7 @@ def _ofFate(h, fate, zone):
     came = last["held"] + last["passed"]
     result = {"begin": zone.begin, "end": zone.end, **last, "firstHeld": h.time[np.argmax(isHeld)] if isHeld.any() else None, "mostHeld": int(fate.held.sum(0).max())}
     if came:
-        result.update(retention=last["held"] / came, confidence=list(clogging.confidence(last["held"], came)))
+        result.update(retention=float(clogging.retention(fate)[-1]), confidence=list(clogging.confidence(last["held"], came)))
     return result
 
 
