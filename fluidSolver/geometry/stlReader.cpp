@@ -209,9 +209,28 @@ std::string sharedEdgeCure(const TriSurface& s, int a, int b)
     return "; parts with a common edge or face: unite them in the CAD program (boolean union), or write each to a file of its own and give a 'union' of these";
 }
 
+/// Ends messages about surfaces whose points may have been rounded together: coordinates of a map in single precision, which binary files have and many programs write.
+std::string roundingCure(const TriSurface& s)
+{
+    constexpr double singlePrecision = 1.2e-7, harmless = 1e-4; // of the farthest coordinate, of the surface's extent
+    Vec3 lower = s.points[0], upper = s.points[0];
+    for (const Vec3& x : s.points)
+    {
+        lower = lower.cwiseMin(x);
+        upper = upper.cwiseMax(x);
+    }
+    const double farthest = std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff());
+    if (singlePrecision * farthest < harmless * (upper - lower).norm()) return "";
+    std::ostringstream cure;
+    cure << "; its coordinates reach " << farthest << " m, where the single precision of STL files knows steps of " << singlePrecision * farthest
+         << " m: export it near its origin, and give its place as 'position'";
+    return cure.str();
+}
+
 /// Every directed edge once and its reverse once.
 void requireClosed(const std::string& file, const TriSurface& s)
 {
+    const std::string orientationCure = "; a body needs a surface that is outwards all over: surfaceOrient turns them";
     EdgeUses uses;
     for (const auto& t : s.triangles)
         for (int k = 0; k < 3; ++k) ++uses[{t[k], t[(k + 1) % 3]}];
@@ -220,11 +239,11 @@ void requireClosed(const std::string& file, const TriSurface& s)
         const auto [a, b] = directed;
         const int backward = count(uses, b, a);
         if (forward == 1 && backward == 1) continue;
-        const std::string edge = "the edge " + text(s.points[a]) + " - " + text(s.points[b]);
-        if (forward + backward == 1) fail(file, "the surface is open: " + edge + " belongs to one triangle only" + openEdgeCure(s, uses, a, b));
+        const std::string rounding = roundingCure(s), edge = "the edge " + text(s.points[a]) + " - " + text(s.points[b]);
+        if (forward + backward == 1) fail(file, "the surface is open: " + edge + " belongs to one triangle only" + (rounding.empty() ? openEdgeCure(s, uses, a, b) : rounding));
         if (forward + backward == 2)
-            fail(file, edge + " lies between triangles of opposite orientation; a body needs a surface that is outwards all over: surfaceOrient turns them");
-        fail(file, edge + " belongs to " + std::to_string(forward + backward) + " triangles, wanted 2" + sharedEdgeCure(s, a, b));
+            fail(file, edge + " lies between triangles of opposite orientation" + (rounding.empty() ? orientationCure : rounding));
+        fail(file, edge + " belongs to " + std::to_string(forward + backward) + " triangles, wanted 2" + (rounding.empty() ? sharedEdgeCure(s, a, b) : rounding));
     }
 }
 
@@ -237,7 +256,7 @@ TriSurface readClosedStl(const std::string& file, double scale)
     for (Vec3& x : s.points) x *= scale;
     requireClosed(file, s);
     const double volume = enclosedMoments(s).volume;
-    if (volume == 0) fail(file, "the surface encloses no volume");
+    if (volume == 0) fail(file, "the surface encloses no volume" + roundingCure(s));
     if (volume < 0)
         for (auto& t : s.triangles) std::swap(t[1], t[2]);
     return s;

@@ -58,6 +58,8 @@ std::vector<Facet> largestFirst(const TriSurface& surface)
 
 double sectionArea(const TriSurface& surface, const Vec3& point, const Vec3& normal)
 {
+    if (surface.points.empty()) return 0;
+    const Vec3 origin = surface.points[0]; // near the section: `point` may be kilometres away in the plane (a body at coordinates of a map, seen from there)
     double area = 0;
     for (const auto& t : surface.triangles)
     {
@@ -70,7 +72,7 @@ double sectionArea(const TriSurface& surface, const Vec3& point, const Vec3& nor
             const int j = (i + 1) % 3;
             if ((d[i] >= 0) == (d[j] >= 0)) continue;
             const Vec3& p = surface.points[t[i]];
-            cut[d[i] < 0 ? 0 : 1] = p + d[i] / (d[i] - d[j]) * (surface.points[t[j]] - p) - point;
+            cut[d[i] < 0 ? 0 : 1] = p + d[i] / (d[i] - d[j]) * (surface.points[t[j]] - p) - origin;
             ++n;
         }
         if (n == 2) area += 0.5 * normal.dot(cut[1].cross(cut[0]));

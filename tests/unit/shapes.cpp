@@ -196,6 +196,8 @@ TEST_CASE("plane sections")
 {
     CHECK(sectionArea(makeBox(Vec3::Zero(), {1, 2, 3})->surface(1), {0, 0, 0.2}, Vec3::UnitZ()) == near(2, 1e-14));
     CHECK(sectionArea(makeSphere(Vec3::Zero(), 0.5)->surface(0.01), {0, 0, 0.3}, Vec3::UnitZ()) == near(M_PI * 0.16, 2e-4));
+    // the plane's point far away in it: a body at coordinates of a map, seen from the frame of the mesh (1e-3 off when summed about that point)
+    CHECK(sectionArea(makeBox(Vec3::Zero(), {0.1, 0.2, 3})->surface(1), {5e5, 5.6e6, 0.2}, Vec3::UnitZ()) == near(0.02, 1e-12));
 }
 
 TEST_CASE("bounds hold the shape; a solid's bounds turn with it")

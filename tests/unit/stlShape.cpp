@@ -254,6 +254,15 @@ TEST_CASE("surfaces that enclose nothing are refused, naming the file and the ed
     writeStl(file.name, joined({boxFrom({-1, -1, -1}, {0, 1, 1}), boxFrom({0, -1, -1}, {1, 1, 1})}));
     CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("parts with a common edge or face: unite"), std::runtime_error);
 
+    // at coordinates of a map, where single precision knows half metres
+    for (const Vec3& size : {Vec3(0.3, 0.3, 0.3), Vec3(10, 0.3, 10)})
+    {
+        s = makeBox({5.2e5, 5.6e6, 350}, size)->surface(1);
+        writeBinary(file.name, s);
+        CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("coordinates reach 5.6e+06 m"), std::runtime_error);
+        CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("near its origin, and give its place as 'position'"), std::runtime_error);
+    }
+
     std::ofstream(file.name) << "something else";
     CHECK_THROWS_WITH_AS(makeStl(file.name), doctest::Contains("neither binary"), std::runtime_error);
     CHECK_THROWS_WITH_AS(makeStl("no/such/file.stl"), doctest::Contains("cannot be opened"), std::runtime_error);
