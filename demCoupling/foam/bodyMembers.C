@@ -171,8 +171,6 @@ Eigen::Quaterniond drawOrientation(const RandomPlacement& random, const Eigen::Q
     return numbers.rotation();
 }
 
-constexpr double roundOff = 1e-12;  // of the box of random bodies [m]
-
 /// The draw that came nearest to fitting into the box.
 struct TightestFit
 {
@@ -194,7 +192,7 @@ bool drawPose(const BodyKind& kind, const RandomPlacement& random, const Eigen::
     for (int d = 0; d < 3; ++d)
     {
         const double u = numbers.uniform();
-        if (!isFree(d) && lower[d] - upper[d] > roundOff) return false;
+        if (!isFree(d) && lower[d] - upper[d] > coordinateRoundOff(random.box)) return false;
         pose.position[d] += isFree(d) ? frame.midPlane - 0.5*(box[0] + box[1])[d] : lower[d] + u*(upper[d] - lower[d]);
     }
     return true;
@@ -220,7 +218,7 @@ std::string mostlyInTheWay(const BodyKind& kind, const RandomPlacement& random, 
 
 [[noreturn]] void failToPlace(const BodyGroup& group, const RandomPlacement& random, int nPlaced, const TightestFit& tightest, const std::string& inTheWay, const Foam::dictionary& dict)
 {
-    if (tightest.excess > roundOff)
+    if (tightest.excess > coordinateRoundOff(random.box))
         failIn(dict, text("Bodies '", group.name, "' do not fit into 'box', which must hold the whole of them: it is ", tightest.extent - tightest.excess,
             " m long along ", "xyz"[tightest.axis], ", a body ", random.orientation == "fixed" ? "" : "in the best of all orientations that were tried ", tightest.extent,
             " m.\n    Enlarge 'box'", random.orientation == "fixed" ? ", or turn the bodies ('orientation')." : ", or allow more 'tries'."));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace flotsam
 {
@@ -69,41 +70,53 @@ double depthInFacets(const ShapeAtPose& body, const TriSurface& surface, double 
     return deepest;
 }
 
-/// Remembers the deepest overlap among those that violate the gap.
-void keepWorse(std::optional<Conflict>& worst, const std::string& with, double overlap, double minGap)
-{
-    constexpr double roundOff = 1e-9; // [m]: bodies that touch a wall exactly are welcome
-    if (overlap + minGap > roundOff && (!worst || overlap > worst->overlap)) worst = Conflict{with, overlap};
-}
-
 double shortestSide(const ShapeAtPose& body)
 {
     const auto [lower, upper] = body.shape->shape().bounds();
     return (upper - lower).minCoeff();
 }
 
+/// The deepest overlap among those that violate a gap.
+class Worst
+{
+public:
+    explicit Worst(const ShapeAtPose& body) : roundOff_(ofSize*shortestSide(body) + coordinateRoundOff(body.spaceBounds())) {}
+
+    void keep(const std::string& with, double overlap, double minGap)
+    {
+        if (overlap + minGap > roundOff_ && (!found_ || overlap > found_->overlap)) found_ = Conflict{with, overlap};
+    }
+
+    const std::optional<Conflict>& found() const { return found_; }
+
+private:
+    static constexpr double ofSize = 1e-8;
+    const double roundOff_;     // [m]: bodies that touch a wall exactly are welcome
+    std::optional<Conflict> found_;
+};
+
 /// isFirstEnough: whichever is found first.
 std::optional<Conflict> worstConflict(const ShapeAtPose& body, const Obstacles& obstacles, double minGap, bool withBodies, bool isFirstEnough)
 {
-    std::optional<Conflict> worst;
+    Worst worst(body);
     const auto keepOutside = [&](int d, double sideGap)
     {
-        keepWorse(worst, "the outside of the mesh", depthBehind(body, obstacles.box[0], Vec3::Unit(d)), sideGap);
-        keepWorse(worst, "the outside of the mesh", depthBehind(body, obstacles.box[1], -Vec3::Unit(d)), sideGap);
+        worst.keep("the outside of the mesh", depthBehind(body, obstacles.box[0], Vec3::Unit(d)), sideGap);
+        worst.keep("the outside of the mesh", depthBehind(body, obstacles.box[1], -Vec3::Unit(d)), sideGap);
     };
     for (int d = 0; d < 3; ++d) // a body that is not in the mesh at all is behind its walls as well: the first says more
     {
         const double x = body.pose.position[d];
         if (obstacles.checkBox[d] && (x < obstacles.box[0][d] || x > obstacles.box[1][d])) keepOutside(d, 0);
     }
-    if (worst) return worst;
-    const auto isEnough = [&] { return isFirstEnough && worst; };
-    for (const auto& plane : obstacles.planes) keepWorse(worst, "wall " + plane.name, depthBehind(body, plane.point, plane.normal), minGap);
+    if (worst.found()) return worst.found();
+    const auto isEnough = [&] { return isFirstEnough && worst.found(); };
+    for (const auto& plane : obstacles.planes) worst.keep("wall " + plane.name, depthBehind(body, plane.point, plane.normal), minGap);
     for (const auto& wall : obstacles.facets)
-        if (!isEnough()) keepWorse(worst, "wall " + wall.name, depthInFacets(body, wall.surface, 0.25*shortestSide(body)), minGap);
+        if (!isEnough()) worst.keep("wall " + wall.name, depthInFacets(body, wall.surface, 0.25*shortestSide(body)), minGap);
     const auto keepClearOf = [&](const ShapeAtPose& other)
     {
-        if (!isEnough()) keepWorse(worst, other.name, -gap(body, other, std::max(minGap, 0.0) + 1e-6), minGap);
+        if (!isEnough()) worst.keep(other.name, -gap(body, other, std::max(minGap, 0.0) + 1e-6), minGap);
     };
     for (const auto& structure : obstacles.shapes) keepClearOf(structure);
     for (const auto& other : obstacles.bodies)
@@ -113,7 +126,7 @@ std::optional<Conflict> worstConflict(const ShapeAtPose& body, const Obstacles& 
         // the sides of the box may be open boundaries: a body must be inside, but owes them no gap
         if (obstacles.checkBox[d]) keepOutside(d, std::min(minGap, 0.0));
     }
-    return worst;
+    return worst.found();
 }
 
 /// Edges included, corners not.
@@ -130,6 +143,12 @@ void addPointsOfStrip(std::vector<Vec3>& points, const Strip& strip, double spac
 }
 
 } // namespace
+
+double coordinateRoundOff(const std::array<Vec3, 2>& box)
+{
+    constexpr double operations = 16;
+    return operations*std::numeric_limits<double>::epsilon()*std::max(box[0].cwiseAbs().maxCoeff(), box[1].cwiseAbs().maxCoeff());
+}
 
 std::vector<Vec3> pointsOnSurface(const TriSurface& surface, double spacing)
 {

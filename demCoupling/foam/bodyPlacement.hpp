@@ -25,6 +25,9 @@ private:
     std::vector<Vec3> points_;  ///< in the shape's frame
 };
 
+/// What is lost of lengths that are differences of coordinates in a box [m]: at those of a map more than in a flume.
+double coordinateRoundOff(const std::array<Vec3, 2>& box);
+
 /// Sample points of a triangulated surface, neighbours no further apart than `spacing` [m].
 std::vector<Vec3> pointsOnSurface(const TriSurface& surface, double spacing);
 

@@ -110,6 +110,20 @@ TEST_CASE("a place is free where nothing conflicts with it")
     CHECK(nTaken > 20);
 }
 
+TEST_CASE("bodies may touch the sides of the mesh exactly, at coordinates of a map, whose last digit is nanometres, too")
+{
+    const auto brick = std::make_shared<SampledShape>(makeBox(Vec3::Zero(), Vec3::Constant(0.3)), 0.1);
+    Obstacles obstacles;
+    for (int k = 0; k < 100; ++k)
+    {
+        const auto place = [&](double along) { return Vec3(523456.7, 9601234.9 + (along + 0.01*k), 350.3 + along); };
+        obstacles.box = {place(0), place(0.3)};
+        obstacles.box[1][0] += 1;
+        CHECK(isPlaceFree({"", brick, {place(0.15) + Vec3(0.4, 0, 0)}}, obstacles, 0));
+        CHECK(!isPlaceFree({"", brick, {place(0.15) + Vec3(0.4, 1e-6, 0)}}, obstacles, 0));
+    }
+}
+
 TEST_CASE("points of narrow triangles")
 {
     TriSurface strip;
