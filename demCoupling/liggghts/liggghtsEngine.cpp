@@ -136,6 +136,21 @@ struct LiggghtsEngine::Implementation
         return result;
     }
 
+    /// Under constant loads ways are exact at any step: how far a body turns in one is what it errs by.
+    double freeFlightStep(double duration) const
+    {
+        constexpr double largestAngle = 0.01;
+        double fastest = 0;
+        for (size_t b = 0; b < setup.bodies.size(); ++b)
+        {
+            if (isHeld[b] || model.isGone[b])
+                continue;
+            const double gained = loads[b].moment.norm() / setup.bodies[b].principalInertia.minCoeff() * duration;
+            fastest = std::max(fastest, asVec(model.bodies.omega[b]).norm() + gained);
+        }
+        return fastest * duration > largestAngle ? largestAngle / fastest : duration;
+    }
+
     /// What comes next within `left` [s]: free flight for as long as nothing can touch anything, or a while of contact sub-steps.
     Interval nextInterval(double left, double largestStep)
     {
@@ -255,13 +270,12 @@ void LiggghtsEngine::setLoads(const std::vector<Load>& loads)
 
 void LiggghtsEngine::advance(double duration, double largestStep)
 {
-    constexpr double shortest = 1e-4; // of the steps in free flight [s]
     if (!(duration > 0) || !(largestStep >= 0))
         throw DemError("advance: duration must be > 0, the largest step >= 0");
     Implementation& d = *impl_;
     d.subSteps = 0;
     if (largestStep == 0)
-        largestStep = std::max(shortest, d.timeStep);
+        largestStep = std::max(d.timeStep, d.freeFlightStep(duration));
     if (d.setup.hasContactStepsOnly)
         largestStep = d.timeStep;
     if (!d.model.near->isNew())

@@ -49,7 +49,7 @@ public:
     void setLoads(const std::vector<Load>& loads);
 
     /// Advances all bodies by `duration` [s] with sub-steps of at most timeStep() (of at most `largestStep` when no body is
-    /// within reach of another or of a wall during this interval; 0: 0.1 ms, or timeStep() where that is longer). Contact results below refer to this call.
+    /// within reach of another or of a wall during this interval; 0: in which no body turns by more than 0.01 rad, or timeStep() where that is longer). Contact results below refer to this call.
     void advance(double duration, double largestStep = 0);
 
     std::vector<BodyState> states() const;
