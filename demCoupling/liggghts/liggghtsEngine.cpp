@@ -29,14 +29,15 @@ const DemSetup& checked(const DemSetup& setup)
     return setup;
 }
 
-/// Wide lists are rebuilt rarely and, thinned by NearSpheres, cost little; for the smallest spheres they must not grow too long.
+/// Wide lists are rebuilt rarely and, thinned by NearSpheres, cost little: for spheres of millimetres they are wider. Where all spheres are far smaller, they must not hold whole scenes.
 double chosenSkin(const DemSetup& setup)
 {
     double smallest = 1e300;
     for (const BodyDefinition& body : setup.bodies)
         for (const SurfaceSphere& s : body.spheres)
             smallest = std::min(smallest, s.radius);
-    return std::max(0.004, 1.6 * smallest);
+    constexpr double wide = 0.004; // [m]
+    return std::max(1.6 * smallest, std::min(wide, 4 * smallest));
 }
 
 /// Movers are bodies on which no force acts, of the same inertia about any axis: LIGGGHTS keeps their velocities. Much heavier than the bodies, they do not give way in the

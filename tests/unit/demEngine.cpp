@@ -196,6 +196,21 @@ TEST_CASE("a larger inertia changes a free path by nothing, a push by its factor
     CHECK(plain.states()[0].motion.velocity == heavy.states()[0].motion.velocity);
 }
 
+TEST_CASE("many bodies of a tenth of a millimetre are not all neighbours")
+{
+    std::vector<BodyDefinition> bodies;
+    for (int i = 0; i < 64; ++i)
+    {
+        bodies.push_back(bar(Vec3(2e-3, 2e-4, 2e-4), 1e-4, 1e-4, Vec3(0, 3e-4 * (i % 8), 3e-4 * (i / 8))));
+        bodies.back().name += std::to_string(i);
+    }
+    const DemSetup setup = scene(bodies, {});
+    LiggghtsEngine engine(setup);
+    engine.setLoads(weights(setup));
+    engine.advance(1e-4);
+    CHECK(engine.states()[63].motion.velocity.norm() == near(9.81 * 1e-4, 1e-9));
+}
+
 TEST_CASE("opening and closing leaks no file")
 {
     const DemSetup setup = heap(2, true);
