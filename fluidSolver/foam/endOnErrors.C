@@ -58,3 +58,15 @@ void endOnErrors()
 }
 
 } // namespace flotsam
+
+#if OPENFOAM >= 2012
+namespace Foam
+{
+
+// From v2012 on OpenFOAM's abort ignores throwExceptions: a stack trace and a signal, and every rank says its message. What a program defines comes before the same name in the
+// libraries it loads, whichever of them calls it: this is called instead of OpenFOAM's. With FOAM_ABORT in the environment exit() aborts as before.
+void error::abort() { exit(1); }
+void IOerror::abort() { exit(1); }
+
+} // namespace Foam
+#endif
