@@ -108,7 +108,8 @@ if(OpenFOAM_FOUND AND NOT TARGET OpenFOAM::OpenFOAM)
   target_compile_options(OpenFOAM::OpenFOAM INTERFACE
     $<$<COMPILE_LANGUAGE:CXX>:-ftemplate-depth=256 -Wno-alloc-size-larger-than>)
   if(OpenFOAM_MODE STREQUAL environment)
-    target_link_options(OpenFOAM::OpenFOAM INTERFACE "LINKER:-rpath-link,${_of_lib}:${_of_pstream}")
+    # RPATH, not RUNPATH: LD_LIBRARY_PATH must not lead to another OpenFOAM. Open MPI's mpirun, called by its full path, puts its own /usr/lib first, where Debian's may lie.
+    target_link_options(OpenFOAM::OpenFOAM INTERFACE "LINKER:-rpath-link,${_of_lib}:${_of_pstream}" "LINKER:--disable-new-dtags")
   endif()
   foreach(component IN LISTS OpenFOAM_FIND_COMPONENTS)
     _of_add_component(${component})
