@@ -4,6 +4,7 @@
 #include "demCoupling/liggghts/liggghtsCorners.hpp"
 #include "demCoupling/liggghts/liggghtsNear.hpp"
 #include "demCoupling/liggghts/liggghtsRestraints.hpp"
+#include "demCoupling/liggghts/liggghtsSetup.hpp"
 #include "demCoupling/liggghts/liggghtsTally.hpp"
 #include "demCoupling/liggghts/reach.hpp"
 
@@ -17,50 +18,6 @@ namespace
 {
 
 Vec3 asVec(const double* v) { return Vec3(v[0], v[1], v[2]); }
-
-const DemSetup& checked(const DemSetup& setup)
-{
-    if (setup.bodies.empty())
-        throw DemError("the DEM engine needs at least one body");
-    if (!((setup.box[1] - setup.box[0]).minCoeff() > 0))
-        throw DemError("the DEM box is empty: its upper corner must lie above its lower corner");
-    if (!(setup.skin >= 0) || !(setup.timeStep >= 0))
-        throw DemError("DEM: skin and timeStep must be >= 0 (0: chosen)");
-    return setup;
-}
-
-/// Wide lists are rebuilt rarely and, thinned by NearSpheres, cost little: for spheres of millimetres they are wider. Where all spheres are far smaller, they must not hold whole scenes.
-double chosenSkin(const DemSetup& setup)
-{
-    double smallest = 1e300;
-    for (const BodyDefinition& body : setup.bodies)
-        for (const SurfaceSphere& s : body.spheres)
-            smallest = std::min(smallest, s.radius);
-    constexpr double wide = 0.004; // [m]
-    return std::max(1.6 * smallest, std::min(wide, 4 * smallest));
-}
-
-/// Movers are bodies on which no force acts, of the same inertia about any axis: LIGGGHTS keeps their velocities. Much heavier than the bodies, they do not give way in the
-/// contact law either.
-DemSetup withMovers(DemSetup setup)
-{
-    constexpr double heavier = 1e6;
-    double heaviest = 0;
-    for (const BodyDefinition& body : setup.bodies)
-        heaviest = std::max(heaviest, body.mass);
-    for (const MoverDefinition& mover : setup.movers)
-    {
-        BodyDefinition body;
-        body.name = mover.name;
-        body.spheres = mover.spheres;
-        body.material = mover.material;
-        mover.motion(setup.startTime, body.pose, body.motion);
-        body.mass = heavier * heaviest;
-        body.principalInertia.setConstant(body.mass * std::pow(outerRadius(body), 2));
-        setup.bodies.push_back(std::move(body));
-    }
-    return setup;
-}
 
 template <class Values>
 Values first(Values values, size_t n)
@@ -77,12 +34,10 @@ struct LiggghtsEngine::Implementation
     static constexpr int stepsBetweenLooks = 50; ///< whether anything is near: a look costs up to two sub-steps
 
     explicit Implementation(const DemSetup& given)
-        : nBodies(given.bodies.size()), setup(withMovers(checked(given))), reach(setup.bodies, given.walls, nBodies), isHeld(setup.bodies.size(), 0),
+        : nBodies(given.bodies.size()), setup(completed(given)), reach(setup.bodies, given.walls, nBodies), isHeld(setup.bodies.size(), 0),
           loads(setup.bodies.size()), factors(setup.bodies.size()), applied(setup.bodies.size())
     {
         model.firstMover = static_cast<int>(nBodies);
-        if (setup.skin == 0)
-            setup.skin = chosenSkin(setup);
         model.contacts = makeContactTable(setup);
         timeStep = setup.timeStep > 0 ? setup.timeStep : contactTimeStep(setup, model.contacts);
         compensateLag(setup, timeStep, model.contacts);
@@ -135,21 +90,6 @@ struct LiggghtsEngine::Implementation
         for (int b = 0; b < model.bodies.count; ++b)
             result.push_back(stateOf(b));
         return result;
-    }
-
-    /// Under constant loads ways are exact at any step: how far a body turns in one is what it errs by.
-    double freeFlightStep(double duration) const
-    {
-        constexpr double largestAngle = 0.01;
-        double fastest = 0;
-        for (size_t b = 0; b < setup.bodies.size(); ++b)
-        {
-            if (isHeld[b] || model.isGone[b])
-                continue;
-            const double gained = loads[b].moment.norm() / setup.bodies[b].principalInertia.minCoeff() * duration;
-            fastest = std::max(fastest, asVec(model.bodies.omega[b]).norm() + gained);
-        }
-        return fastest * duration > largestAngle ? largestAngle / fastest : duration;
     }
 
     /// What comes next within `left` [s]: free flight for as long as nothing can touch anything, or a while of contact sub-steps.
@@ -276,7 +216,7 @@ void LiggghtsEngine::advance(double duration, double largestStep)
     Implementation& d = *impl_;
     d.subSteps = 0;
     if (largestStep == 0)
-        largestStep = std::max(d.timeStep, d.freeFlightStep(duration));
+        largestStep = std::max(d.timeStep, freeFlightStep(d.setup, d.states(), d.loads, d.isHeld, d.model.isGone, duration));
     if (d.setup.hasContactStepsOnly)
         largestStep = d.timeStep;
     if (!d.model.near->isNew())
