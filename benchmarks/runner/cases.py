@@ -4,9 +4,9 @@
 title, figures   what is computed; {column: (label, unit)} of what errors() returns
 mainError        the column that stands for accuracy in plots and tables; moreErrors: further such columns, may be missing
 runs             list of Run: solvers, resolutions, variants
-parameters(run)  entries of system/parameters, included by the case's dictionaries
+parameters(run)  entries of system/parameters, included by the case's dictionaries, may be missing
 files(run, folder)  {path: text} of further files of the case folder, may be missing
-prepare(run, do) mesh and start fields: do("blockMesh") runs a command in the case folder; time not counted
+prepare(run, do) mesh and start fields: do("blockMesh") runs a command in the case folder, which is all it does where it is missing; time not counted
 errors(run, folder)  {column: value} from the finished run, the same formula for all solvers
 targets          list of Target, may be missing
 problem(variant) names the problem that a variant belongs to: only runs of one problem are compared; may be missing
@@ -69,5 +69,8 @@ def load(root, name, part="cases"):
     spec = importlib.util.spec_from_file_location(name, os.path.join(path, "case.py"))
     case = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(case)
+    for part, default in (("parameters", lambda _run: {}), ("prepare", lambda _run, do: do("blockMesh"))):
+        if not hasattr(case, part):
+            setattr(case, part, default)
     case.name, case.folder, case.root = name, path, root
     return case

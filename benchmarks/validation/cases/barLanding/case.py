@@ -76,14 +76,6 @@ bodies
     return gas.files(((-0.1, 0.1), (-0.07, 0.07), (0, 0.1)), (16, 12, 10), (0, 0, -GRAVITY), text, END, 1e-3)
 
 
-def parameters(_run):
-    return {}
-
-
-def prepare(_run, do):
-    do("blockMesh")
-
-
 def _rate(state, spheres, spring, dashpot):
     """Height of the centre, its velocity, angle and angular velocity about y: their rates, and whether anything touches."""
     z, v, angle, spin = state

@@ -58,10 +58,6 @@ def files(run, _folder):
         control(END * diameter / speed, 1e-3 * diameter / speed, maxDeltaT=0.2 * diameter / speed, maxCo=1))
 
 
-def parameters(_run):
-    return {}
-
-
 def prepare(run, do):
     do("blockMesh")
     refinement.refine(_levels(run), do)

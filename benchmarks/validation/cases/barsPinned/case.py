@@ -18,13 +18,5 @@ def files(run, folder):
     return heldBars.files(root, NAMES, run, folder)     # noqa: F821 (root is set by the runner)
 
 
-def parameters(_run):
-    return {}
-
-
-def prepare(_run, do):
-    do("blockMesh")
-
-
 def errors(run, folder):
     return heldBars.errors(root, NAMES, run, folder)    # noqa: F821

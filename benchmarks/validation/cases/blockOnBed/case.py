@@ -62,14 +62,6 @@ def files(run, _folder):
         oneFluid(NU, DENSITY), gravity(z=-G), bodies(_body(run, step)), control(END, 0.02, maxDeltaT=0.05))
 
 
-def parameters(_run):
-    return {}
-
-
-def prepare(_run, do):
-    do("blockMesh")
-
-
 def _lift(run, value):
     quantity = "suction on the top" if run.variant == "joined cube" else "lift coefficient"
     if _isPlane(run):

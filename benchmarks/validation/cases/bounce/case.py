@@ -33,14 +33,6 @@ bodies {{ sphere {{ shape {{ type sphere; radius {RADIUS:g}; }} density {DENSITY
     return gas.files(((-0.04, 0.04), (-0.04, 0.04), (0, 0.1)), (8, 8, 10), (0, 0, -GRAVITY), text, END, 1e-3)
 
 
-def parameters(_run):
-    return {}
-
-
-def prepare(_run, do):
-    do("blockMesh")
-
-
 def _contact(v, damping):
     """Speed, duration and gap at the end of a contact that begins with the speed v < 0: fourth order Runge-Kutta to zero force."""
     step, t, state = 2e-6, 0.0, np.array([0.0, v])

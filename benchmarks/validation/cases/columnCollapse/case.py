@@ -40,10 +40,6 @@ def files(run, _folder):
         twoFluids(), gravity(y=-GRAVITY), control(END * UNIT, 1e-4, functions="\n".join(lines)))
 
 
-def parameters(_run):
-    return {}
-
-
 def prepare(_run, do):
     do("blockMesh")
     do("setFields")

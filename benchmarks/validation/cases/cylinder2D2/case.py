@@ -35,10 +35,6 @@ def files(run, _folder):
         control(END, 1e-3, maxCo=1))
 
 
-def parameters(_run):
-    return {}
-
-
 def prepare(_run, do):
     do("blockMesh")
     do("setExprBoundaryFields")

@@ -50,14 +50,6 @@ def files(run, _folder):
         oneFluid(NU, DENSITY), bodies(f"structures\n{{\n{row}\n}}"), control(END, STEP, adjust=False))
 
 
-def parameters(_run):
-    return {}
-
-
-def prepare(_run, do):
-    do("blockMesh")
-
-
 def errors(run, case):
     history = foam.history(root, case)      # noqa: F821 (root is set by the runner)
     length = (LAYERS if run.options["is3D"] else 1) * _pitch(run) / _across(run)

@@ -40,14 +40,6 @@ def files(run, _folder):
         control(whole if run.options["isWhole"] else part, 1e-3, maxDeltaT=0.02))
 
 
-def parameters(_run):
-    return {}
-
-
-def prepare(_run, do):
-    do("blockMesh")
-
-
 def _rms(values):
     return float(np.sqrt(np.mean(np.square(values))))
 

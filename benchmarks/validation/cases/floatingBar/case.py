@@ -66,10 +66,6 @@ def files(run, _folder):
         control(END, 0.001, maxDeltaT=0.005, writeInterval=0.1))
 
 
-def parameters(_run):
-    return {}
-
-
 def prepare(_run, do):
     do("blockMesh")
     do("setAlphaField")

@@ -29,10 +29,6 @@ def files(run, _folder):
     return merged(channel.files(LENGTH, HEIGHT, h, CRITICAL, SPEED, end), control(END, 0.002, maxDeltaT=0.01))
 
 
-def parameters(_run):
-    return {}
-
-
 def prepare(_run, do):
     do("blockMesh")
     do("setFields")

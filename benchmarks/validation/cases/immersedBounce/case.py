@@ -65,14 +65,6 @@ bodies
         control(GAP * diameter / c.speed + c.end, 1e-5, maxDeltaT=5e-4))
 
 
-def parameters(_run):
-    return {}
-
-
-def prepare(_run, do):
-    do("blockMesh")
-
-
 def _landings(history):
     """First steps of the contacts."""
     touches = np.linalg.norm(history["sphere"].contactForce, axis=1) > 0

@@ -53,14 +53,6 @@ bodies
         control(0.75, _step(run), adjust=False))
 
 
-def parameters(_run):
-    return {}
-
-
-def prepare(_run, do):
-    do("blockMesh")
-
-
 def errors(run, case):
     history = foam.history(root, case)      # noqa: F821 (root is set by the runner)
     log, pile = history["log"], history["pile"]

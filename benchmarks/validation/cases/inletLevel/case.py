@@ -82,10 +82,6 @@ def files(run, _folder):
         control(SILL_END if hasSill else SLOPE_END if isSteep else END, 0.005, writeInterval=SILL_INTERVAL if hasSill or isSteep else INTERVAL))
 
 
-def parameters(_run):
-    return {}
-
-
 def prepare(run, do):
     do("blockMesh")
     if run.options["form"] == "below a wall":

@@ -49,10 +49,6 @@ def files(run, _folder):
         control(END, 0.002, maxCo=1, maxBodyCo=1, maxDeltaT=0.0125))
 
 
-def parameters(_run):
-    return {}
-
-
 def prepare(_run, do):
     do("blockMesh")
     do("setAlphaField")

@@ -41,14 +41,6 @@ def files(run, _folder):
         control(PERIODS * PERIOD, 0.005))
 
 
-def parameters(_run):
-    return {}
-
-
-def prepare(_run, do):
-    do("blockMesh")
-
-
 def _series(phase, f, terms):
     """Fourier coefficients (sine, cosine) of f over one period, least squares."""
     columns = [np.ones_like(phase)]

@@ -40,10 +40,6 @@ def files(run, _folder):
     return merged(channel.files(LENGTH, HEIGHT, h, DEPTH, SPEED, end), control(END, 0.002, maxDeltaT=0.01, writeInterval=END / WRITES))
 
 
-def parameters(_run):
-    return {}
-
-
 def prepare(_run, do):
     do("blockMesh")
     do("setFields")

@@ -85,10 +85,6 @@ regions ( boxToCell {{ box (-1 -1 -1) (1e9 1 {DEPTH}); fieldValues (volScalarFie
         referenceHeight(DEPTH * math.cos(angle) - LENGTH * math.sin(angle)), _controls(), _numerics(run))
 
 
-def parameters(_run):
-    return {}
-
-
 def prepare(_run, do):
     do("blockMesh")
     do("topoSet")

@@ -35,14 +35,6 @@ def files(run, _folder):
                      f"contact {{ default {{ stiffness 1e5; restitution 0.2; frictionAngle {np.degrees(np.arctan(friction)):.10g}; }} }}\nbodies {{ {text} }}", END, 2e-3)
 
 
-def parameters(_run):
-    return {}
-
-
-def prepare(_run, do):
-    do("blockMesh")
-
-
 def errors(run, case):
     shape, slope, mu = RUNS[run.variant]
     history = foam.history(root, case)      # noqa: F821 (root is set by the runner)

@@ -44,10 +44,6 @@ def files(run, _folder):
         control(END, 0.002, maxDeltaT=0.02))
 
 
-def parameters(_run):
-    return {}
-
-
 def prepare(run, do):
     do("blockMesh")
     refinement.refine(_levels(run), do)

@@ -71,10 +71,6 @@ regions ( boxToCell {{ box (-10 -1 -1) (0 1 {DEPTH}); fieldValues (volScalarFiel
     volumes { type writeCellVolumes; libs (fieldFunctionObjects); writeControl onEnd; }"""))
 
 
-def parameters(_run):
-    return {}
-
-
 def prepare(run, do):
     do("blockMesh")
     if run.variant == "patch":

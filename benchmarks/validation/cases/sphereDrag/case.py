@@ -36,14 +36,6 @@ def files(run, _folder):
         control(end, 0.01, maxCo=4, maxDeltaT=0.5))
 
 
-def parameters(_run):
-    return {}
-
-
-def prepare(_run, do):
-    do("blockMesh")
-
-
 def errors(run, case):
     number, _, end = STREAMS[run.variant]
     history = foam.history(root, case)      # noqa: F821 (root is set by the runner)

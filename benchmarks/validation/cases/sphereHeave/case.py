@@ -48,10 +48,6 @@ def _rest(density):
     return r - draft
 
 
-def parameters(_run):
-    return {}
-
-
 def prepare(run, do):
     do("blockMesh")
     refinement.refine(run.options.get("levels", 0), do)

@@ -42,10 +42,6 @@ def files(run, _folder):
         control(END, 0.01, maxCo=1, maxDeltaT=0.2))
 
 
-def parameters(_run):
-    return {}
-
-
 def prepare(run, do):
     do("blockMesh")
     refinement.refine(_levels(run), do)

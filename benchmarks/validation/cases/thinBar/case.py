@@ -35,14 +35,6 @@ def files(run, _folder):
         control(END, 0.02))
 
 
-def parameters(_run):
-    return {}
-
-
-def prepare(_run, do):
-    do("blockMesh")
-
-
 def errors(run, case):
     history = foam.history(root, case)      # noqa: F821 (root is set by the runner)
     scale = DENSITY / 2 * SPEED**2 * run.n / 10 * ELEMENT * ELEMENT

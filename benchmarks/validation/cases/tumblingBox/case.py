@@ -25,14 +25,6 @@ def files(run, _folder):
     return gas.files(((-0.15, 0.15),) * 3, (12, 12, 12), (0, 0, 0), text, 10, run.options["dt"])
 
 
-def parameters(_run):
-    return {}
-
-
-def prepare(_run, do):
-    do("blockMesh")
-
-
 def _toBody(q, v):
     """Vectors v in space, seen from the frames q (w x y z)."""
     w, u = q[:, :1], -q[:, 1:]
