@@ -246,7 +246,9 @@ void warnMisnamed(const Foam::Time& time)
 /// OpenFOAM leaves a file whose header it cannot read out, with a warning, where the file may be missing: the run would go on without bodies.
 void checkHeader(const Foam::IOdictionary& dict)
 {
-    if (!Foam::Pstream::master() || dict.headerClassName() != Foam::IOobject::typeName || !Foam::isFile(dict.time().globalPath()/dict.time().constant()/"bodies")) return;
+    const Foam::word& name = dict.headerClassName(); // as it was made (v1912), or none (v2412)
+    const bool isRead = !name.empty() && name != Foam::IOobject::typeName;
+    if (!Foam::Pstream::master() || isRead || !Foam::isFile(dict.time().globalPath()/dict.time().constant()/"bodies")) return;
     failIn(dict, "constant/bodies does not begin with a header: FoamFile { version 2.0; format ascii; class dictionary; object bodies; }");
 }
 
