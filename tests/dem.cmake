@@ -16,7 +16,7 @@ flotsam_test(couplingRecord unit SOURCES unit/couplingRecord.cpp LIBRARIES flots
 flotsam_test(motionClock unit SOURCES unit/motionClock.cpp LIBRARIES flotsam_dem_core)
 flotsam_test(motionTable unit SOURCES unit/motionTable.cpp LIBRARIES flotsam_dem_core)
 flotsam_test(motionCheck unit SOURCES unit/motionCheck.cpp LIBRARIES flotsam_coupling)
-flotsam_test(addedInertia unit SOURCES unit/addedInertia.cpp LIBRARIES flotsam_coupling)
+flotsam_test(fluidAnswer unit SOURCES unit/fluidAnswer.cpp LIBRARIES flotsam_coupling)
 flotsam_test(smoothMotion unit SOURCES unit/smoothMotion.cpp LIBRARIES flotsam_coupling)
 flotsam_test(entryCheck unit SOURCES unit/entryCheck.cpp LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
 flotsam_test(meshExit unit SOURCES unit/meshExit.cpp LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)

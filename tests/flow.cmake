@@ -68,6 +68,8 @@ flotsam_test(fastBodies verification SOURCES verification/fastBodies.cpp
   LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
 flotsam_test(heldBody verification SOURCES verification/heldBody.cpp
   LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
+flotsam_test(struckBody verification SOURCES verification/struckBody.cpp
+  LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
 flotsam_test(tetheredBody verification SOURCES verification/tetheredBody.cpp
   LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
 

@@ -120,10 +120,14 @@ struct Load
 
 inline Load operator-(const Load& a, const Load& b) { return {a.force - b.force, a.moment - b.moment}; }
 
-/// Factors, powers of two, of a body's mass and of its moments of inertia.
-struct InertiaFactor
+using Vector6 = Eigen::Matrix<double, 6, 1>;   ///< force and moment
+/// What a body keeps of a load once the fluid has answered it: rows and columns force and moment.
+using LoadShare = Eigen::Matrix<double, 6, 6>;
+
+struct BodyShare
 {
-    double mass = 1, turn = 1;
+    int body;
+    LoadShare share;
 };
 
 /// One touching pair at the end of an advance().

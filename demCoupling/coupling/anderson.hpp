@@ -14,14 +14,14 @@ class Anderson
 public:
     explicit Anderson(int depth = 5) : depth_(depth) {}
 
-    void reset() { x_.clear(); g_.clear(); }
+    void reset() { g_.clear(); residuals_.clear(); }
 
-    /// Next x from the pair x, g = G(x). The first call of an iteration returns g.
-    Eigen::VectorXd next(const Eigen::VectorXd& x, const Eigen::VectorXd& g);
+    /// Next x from g = G(x) and the residual G(x) - x, in any linear measure. The first call of an iteration returns g.
+    Eigen::VectorXd next(const Eigen::VectorXd& g, const Eigen::VectorXd& residual);
 
 private:
     int depth_;
-    std::vector<Eigen::VectorXd> x_, g_;
+    std::vector<Eigen::VectorXd> g_, residuals_;
 };
 
 } // namespace flotsam

@@ -23,8 +23,8 @@ Load mean(const Load& a, const Load& b) { return {0.5*(a.force + b.force), 0.5*(
 } // namespace
 
 BodyCoupling::BodyCoupling(const DemSetup& setup, const CouplingControls& controls, MPI_Comm comm)
-:   setup_(setup), controls_(controls), comm_(comm), touch_(setup), iteration_(setup.bodies, controls), inertia_(setup.bodies, controls),
-    check_(setup.bodies, setup.walls)
+:   setup_(setup), controls_(controls), comm_(comm), touch_(setup), iteration_(setup.bodies, controls), answer_(setup.bodies, controls),
+    probes_(setup.bodies), check_(setup.bodies, setup.walls)
 {
     MPI_Comm_rank(comm, &rank_);
     const std::size_t n = setup.bodies.size();
@@ -91,7 +91,7 @@ void BodyCoupling::runEngine(double duration, const std::vector<Load>& loads)
 {
     guarded([&]
     {
-        engine_->setInertiaFactors(inertia_.factors());
+        engine_->setShares(answer_.known());
         engine_->setLoads(loads);
         engine_->advance(duration);
         result_ = engine_->states();
@@ -112,7 +112,8 @@ void BodyCoupling::begin(double time, double dt, double far)
     dt_ = dt;
     iteration_.begin(dt);
     guessAtStart_ = contactGuess();
-    factorsAtStart_ = inertia_.factors();
+    sharesAtStart_ = answer_.shares();
+    probes_.begin();
     touchAtStart_ = touch_;
     springSpeed_ = largestSpringSpeed();
     std::vector<char> held(isHeld_);
@@ -157,7 +158,7 @@ void BodyCoupling::moveTo(double time)
 /// Bodies that touch something on their way end where the engine puts them with the last fluid loads.
 void BodyCoupling::predictContacts()
 {
-    runEngine(dt_, inertia_.engineLoads(lastLoads_, difference(contactGuess(), smoothing_)));
+    runEngine(dt_, answer_.engineLoads(lastLoads_, difference(contactGuess(), smoothing_)));
     isAtStart_ = false;
     for (int b = 0; b < nBodies(); ++b)
         if (!newContact_[b].isZero()) predicted_[b].pose = result_[b].pose;
@@ -194,7 +195,7 @@ void BodyCoupling::takeOut(const std::vector<char>& bodies)
         touch_.counts[b] = 0;
         touch_.peaks[b].setZero();
         guess[b] = lastLoads_[b] = newContact_[b] = contact_[b] = Load();
-        inertia_.drop(b);
+        answer_.drop(b);
     }
     iteration_.setGuess(guess);
     smoothing_ = difference(guess, contact_);
@@ -230,7 +231,7 @@ BodyState BodyCoupling::drifted(int b) const
 bool BodyCoupling::hasLightBodies() const
 {
     for (int b = 0; b < nBodies(); ++b)
-        if (isThere(b) && inertia_.mayNeedFactor(b)) return true;
+        if (isThere(b) && answer_.mayBeAsked(b)) return true;
     return false;
 }
 
@@ -250,39 +251,55 @@ std::string BodyCoupling::brokenContact(double fluidSpeed) const
     return check_.passage(states_, result_, newContact_, areAway());
 }
 
-bool BodyCoupling::correct(const std::vector<Load>& loads)
+ContactAnswer BodyCoupling::correct(const std::vector<Load>& loads)
 {
-    if (iteration_.isNewGuess() && inertia_.raise(iteration_.lastChange(), difference(loads, loads_))) iteration_.forget();
     loads_ = loads;
     if (!isAtStart_) guarded([&] { engine_->restore(saved_); });
     isAtStart_ = false;
-    runEngine(dt_, inertia_.engineLoads(loads_, difference(contactGuess(), smoothing_)));
-    smooth_->find(states_, result_, newContact_, dt_);
+    runEngine(dt_, answer_.engineLoads(loads_, difference(contactGuess(), smoothing_)));
+    smooth_->find(states_, result_, newContact_, dt_, answer_.areKnown());
+    if (chooseProbes()) return ContactAnswer::AsksFluid;
     smoothing_ = difference(smooth_->drive(), newContact_);
-    return iteration_.take(smooth_->drive(), inertia_);
+    return iteration_.take(smooth_->drive(), answer_) ? ContactAnswer::Holds : ContactAnswer::Changes;
+}
+
+/// Light bodies that contact has not converged for.
+bool BodyCoupling::chooseProbes()
+{
+    if (!iteration_.mayRepeat()) return false;
+    std::vector<int> bodies;
+    for (int b = 0; b < nBodies(); ++b)
+    {
+        if (isHeld_[b] || !answer_.mayBeAsked(b) || iteration_.agrees(b, smooth_->drive(), answer_)) continue;
+        if (!answer_.isKnown(b) || iteration_.isSlow(b, smooth_->drive(), answer_)) bodies.push_back(b);
+    }
+    return !bodies.empty() && probes_.choose(bodies, {contactGuess(), loads_, smooth_->drive()}, answer_);
+}
+
+void BodyCoupling::finishProbes()
+{
+    iteration_.setGuess(probes_.guessBefore());
+    iteration_.forget();
+    probes_.finish(predicted_, answer_);
 }
 
 void BodyCoupling::accept(const std::vector<Motion>& inFluid)
 {
     std::vector<Load> guess(states_.size());
-    std::vector<char> isLight(states_.size());
-    for (int b = 0; b < nBodies(); ++b) isLight[b] = inertia_.isLight(b);
+    std::vector<char> isFound(states_.size());
     for (int b = 0; b < nBodies(); ++b)
     {
         lastLoads_[b] = isHeld_[b] ? Load() : loads_[b]; // what holds a body takes its loads
-        // what the body has felt, where the contact it was solved with is not quite the one found
-        const InertiaFactor s = inertia_.factors()[b];
-        if (s.mass > 1 && !isHeld_[b])
-            lastLoads_[b].force = setup_.bodies[b].mass/dt_*(result_[b].motion.velocity - states_[b].motion.velocity) - newContact_[b].force;
-        if (s.turn > 1 && !isHeld_[b]) lastLoads_[b].moment = (result_[b].angularMomentum - states_[b].angularMomentum)/dt_ - newContact_[b].moment;
-        if (newContact_[b].isZero()) inertia_.drop(b);
-        else guess[b] = isLight[b] ? smooth_->drive()[b] : mean(newContact_[b], contact_[b]);
+        isFound[b] = answer_.isLight(b) && !answer_.isKnown(b);
+        if (newContact_[b].isZero()) answer_.drop(b);
+        else if (answer_.isKnown(b)) guess[b] = newContact_[b];
+        else guess[b] = isFound[b] ? smooth_->drive()[b] : mean(newContact_[b], contact_[b]);
     }
     smoothing_ = difference(guess, newContact_);
     isJustReleased_.assign(isJustReleased_.size(), 0);
     states_ = result_;
     contact_ = newContact_;
-    smooth_->accept(inFluid, isLight);
+    smooth_->accept(inFluid, isFound);
     iteration_.setGuess(guess);
 }
 
@@ -291,13 +308,13 @@ void BodyCoupling::reject()
     guarded([&] { engine_->restore(saved_); });
     iteration_.setGuess(guessAtStart_); // that of the failed step would spoil the next prediction
     smoothing_ = difference(guessAtStart_, contact_);
-    inertia_.setFactors(factorsAtStart_);
+    answer_.setShares(sharesAtStart_);
     touch_ = touchAtStart_;
 }
 
 CouplingRecord BodyCoupling::record() const
 {
-    return {touch_.wallLoads, lastLoads_, contact_, contactGuess(), inertia_.factors(), smooth_->save(), isHeld_, presence_, touch_.counts, touch_.wallCounts,
+    return {touch_.wallLoads, lastLoads_, contact_, contactGuess(), answer_.shares(), smooth_->save(), isHeld_, presence_, touch_.counts, touch_.wallCounts,
             touch_.largestOverlap, touch_.peaks, touch_.wallPeaks};
 }
 
@@ -326,7 +343,7 @@ void BodyCoupling::restore(const std::vector<double>& data)
     contact_ = stored.contact;
     iteration_.setGuess(stored.guess);
     smoothing_ = difference(stored.guess, contact_);
-    inertia_.setFactors(stored.factors);
+    answer_.setShares(stored.shares);
     isHeld_ = stored.isHeld;
     presence_ = stored.presence;
     guarded([&]

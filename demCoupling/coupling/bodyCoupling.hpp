@@ -4,21 +4,21 @@
 ///   begin(dt)      DEM state saved; poses predicted from the last velocities and net forces, contact loads from the last step. Where a body goes far:
 ///                  poses of touched bodies from a run of the DEM with the last fluid loads
 ///   [fluid solved with contactGuess() on the bodies' rows]
-///   correct(load)  DEM restored and run with the new load; true when the contact loads it gives are the ones the fluid was
+///   correct(load)  DEM restored and run with the new load; holds when the contact loads it gives are the ones the fluid was
 ///                  solved with. Otherwise contactGuess() holds the next guess: solve again
 ///   accept() or reject()
 ///
-/// Without contact before and after the step the first correct() returns true: exactly one solve a step. A prediction by DEM
+/// Without contact before and after the step the first correct() holds: exactly one solve a step. A prediction by DEM
 /// sub-steps costs one more DEM run: only steps in which a body that contact stops would end far from its drift have it.
-/// The repeats: contactIteration.hpp; velocities of touched bodies: smoothMotion.hpp; light bodies: addedInertia.hpp; steps that must not be accepted: motionCheck.hpp.
+/// The repeats: contactIteration.hpp; velocities of touched bodies: smoothMotion.hpp; light bodies: fluidAnswer.hpp; steps that must not be accepted: motionCheck.hpp.
 /// Bodies that have left the mesh are taken out: they rest where they left, and touch nothing; so do those to come (BodyDefinition::entersAtRelease)
 /// until they are let in. Rank 0 owns the engine; every rank holds the same states.
 #pragma once
 
-#include "demCoupling/coupling/addedInertia.hpp"
 #include "demCoupling/coupling/contactIteration.hpp"
 #include "demCoupling/coupling/contactSummary.hpp"
 #include "demCoupling/coupling/couplingRecord.hpp"
+#include "demCoupling/coupling/fluidProbes.hpp"
 #include "demCoupling/coupling/motionCheck.hpp"
 #include "demCoupling/coupling/smoothMotion.hpp"
 #include "demCoupling/liggghts/liggghtsEngine.hpp"
@@ -31,6 +31,13 @@
 namespace flotsam
 {
 
+enum class ContactAnswer
+{
+    Holds,      ///< contactGuess() was right
+    Changes,    ///< contactGuess() is another now: solve again
+    AsksFluid   ///< first solve for each of the probes, then correct() again with the same loads
+};
+
 class BodyCoupling
 {
 public:
@@ -40,7 +47,11 @@ public:
 
     /// far: way of a body in the step [m] from which on its contacts count for the prediction.
     void begin(double time, double dt, double far);
-    bool correct(const std::vector<Load>& loads); ///< loads: fluid and weight, constant over the step
+    ContactAnswer correct(const std::vector<Load>& loads); ///< loads: fluid and weight, constant over the step
+    int nProbes() const { return probes_.count(); }
+    void startProbe(int probe) { iteration_.setGuess(probes_.guess(probe)); }   ///< contactGuess() is the one to solve with
+    void takeProbe(int probe, const std::vector<Load>& loads) { probes_.take(probe, loads); } ///< as correct() would be given them
+    void finishProbes();
     /// Name of a body whose surface the last correct() put farther than `distance` [m] from where it was predicted; empty: none.
     std::string strayBody(double distance) const { return check_.strayBody(predicted_, result_, distance); }
     /// What no contact can do but the last correct() did, in words; empty: nothing. fluidSpeed: the largest there was [m/s].
@@ -81,7 +92,7 @@ public:
     /// Beyond the mesh's bounding box by its diagonal: wherever it flies, it has left.
     bool isFarOff(int body) const;
 
-    /// Whether there are bodies so light that the engine may be given a factor of their mass (addedInertia.hpp).
+    /// Whether there are bodies so light that the fluid may be asked what it answers to contact on them (fluidAnswer.hpp).
     bool hasLightBodies() const;
     int repeats() const { return iteration_.repeats(); } ///< further solves needed in this step
     double mismatch() const { return iteration_.mismatch(); } ///< of the accepted contact, as CouplingControls::tolerance
@@ -101,6 +112,7 @@ private:
     BodyState drifted(int body) const;
     double largestSpringSpeed() const;
     void predictContacts();
+    bool chooseProbes();
     void hold(const std::vector<char>& isHeld);
     void moveTo(double time);
     void guarded(const std::function<void()>& work) const;
@@ -115,13 +127,14 @@ private:
     std::vector<BodyState> states_, predicted_, result_;
     std::vector<Load> lastLoads_, loads_, newContact_, contact_;
     std::vector<Load> smoothing_, guessAtStart_; // smoothing_: of the guess, what is not contact
-    std::vector<InertiaFactor> factorsAtStart_;
+    std::vector<LoadShare> sharesAtStart_;
     NumberWriter sent_;                         // results of the engine, to all ranks
     ContactSummary touch_, touchAtStart_;       // of the engine's last run
     std::vector<char> isHeld_, isJustReleased_;
     std::vector<Presence> presence_;
     ContactIteration iteration_;
-    AddedInertia inertia_;
+    FluidAnswer answer_;
+    FluidProbes probes_;
     MotionCheck check_;
     std::unique_ptr<SmoothMotion> smooth_;
     double dt_ = 0, demTimeStep_ = 0;

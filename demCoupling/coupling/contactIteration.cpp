@@ -5,7 +5,7 @@ namespace flotsam
 {
 
 ContactIteration::ContactIteration(const std::vector<BodyDefinition>& bodies, const CouplingControls& controls)
-:   controls_(controls), guess_(bodies.size()), guessBefore_(bodies.size())
+:   controls_(controls), changes_(bodies.size()), guess_(bodies.size())
 {
     for (const BodyDefinition& body : bodies)
     {
@@ -18,61 +18,68 @@ void ContactIteration::begin(double dt)
 {
     dt_ = dt;
     repeats_ = 0;
-    isNewGuess_ = false;
     anderson_.reset();
 }
 
-bool ContactIteration::take(const std::vector<Load>& loads, const AddedInertia& inertia)
+/// As the velocity that the load makes in one step, of turning at the radius of inertia [m/s].
+Vector6 ContactIteration::scaled(int b, const Load& load) const
 {
-    const std::vector<InertiaFactor>& factors = inertia.factors();
-    const Eigen::VectorXd used = scaled(guess_, factors), found = scaled(loads, factors);
-    if (found.size() == 0) return true;
-    double change = 0;
-    for (std::size_t b = 0; b < loads.size(); ++b)
-    {
-        const InertiaFactor doubt = inertia.doubt(int(b));
-        change = std::max(change, doubt.mass*(found - used).segment<3>(6*b).cwiseAbs().maxCoeff());
-        change = std::max(change, doubt.turn*(found - used).segment<3>(6*b + 3).cwiseAbs().maxCoeff());
-    }
-    const double scale = found.cwiseAbs().maxCoeff() + controls_.gravity*dt_, before = mismatch_;
-    mismatch_ = scale > 0 ? change/scale : 0;
-    if (repeats_ > 0 && mismatch_ > before) anderson_.reset(); // contacts that open or close: a plain step converges
-    isNewGuess_ = mismatch_ > controls_.tolerance && repeats_ < controls_.maxRepeats;
-    if (!isNewGuess_) return true;
-    ++repeats_;
-    guessBefore_ = guess_;
-    guess_ = unscaled(anderson_.next(used, found), factors);
-    return false;
-}
-
-std::vector<Load> ContactIteration::lastChange() const
-{
-    std::vector<Load> change(guess_.size());
-    for (std::size_t b = 0; b < guess_.size(); ++b) change[b] = guess_[b] - guessBefore_[b];
-    return change;
-}
-
-/// Contact loads as the velocity changes they make in one step [m/s].
-Eigen::VectorXd ContactIteration::scaled(const std::vector<Load>& loads, const std::vector<InertiaFactor>& factors) const
-{
-    Eigen::VectorXd v(6*loads.size());
-    for (std::size_t b = 0; b < loads.size(); ++b)
-    {
-        v.segment<3>(6*b) = loads[b].force*(dt_/(masses_[b]*factors[b].mass));
-        v.segment<3>(6*b + 3) = loads[b].moment*(dt_/(masses_[b]*factors[b].turn*arms_[b]));
-    }
+    Vector6 v;
+    v << load.force*(dt_/masses_[b]), load.moment*(dt_/(masses_[b]*arms_[b]));
     return v;
 }
 
-std::vector<Load> ContactIteration::unscaled(const Eigen::VectorXd& values, const std::vector<InertiaFactor>& factors) const
+Load ContactIteration::unscaled(int b, const Vector6& v) const
 {
-    std::vector<Load> loads(masses_.size());
-    for (std::size_t b = 0; b < loads.size(); ++b)
+    return {v.head<3>()*(masses_[b]/dt_), v.tail<3>()*(masses_[b]*arms_[b]/dt_)};
+}
+
+/// The same, with what the fluid answers to the load.
+Vector6 ContactIteration::velocity(int b, const Load& load, const FluidAnswer& answer) const
+{
+    return scaled(b, answer.isKnown(b) ? asLoad(answer.shares()[b]*asVector(load)) : load);
+}
+
+double ContactIteration::change(int b, const std::vector<Load>& found, const FluidAnswer& answer) const
+{
+    return answer.doubt(b)*(velocity(b, found[b], answer) - velocity(b, guess_[b], answer)).cwiseAbs().maxCoeff();
+}
+
+double ContactIteration::scale(const std::vector<Load>& found, const FluidAnswer& answer) const
+{
+    double largest = 0;
+    for (int b = 0; b < int(found.size()); ++b) largest = std::max(largest, velocity(b, found[b], answer).cwiseAbs().maxCoeff());
+    return largest + controls_.gravity*dt_;
+}
+
+bool ContactIteration::agrees(int b, const std::vector<Load>& found, const FluidAnswer& answer) const
+{
+    return change(b, found, answer) <= controls_.tolerance*scale(found, answer);
+}
+
+bool ContactIteration::isSlow(int b, const std::vector<Load>& found, const FluidAnswer& answer) const
+{
+    return repeats_ > 0 && change(b, found, answer) > 0.5*changes_[b];
+}
+
+bool ContactIteration::take(const std::vector<Load>& found, const FluidAnswer& answer)
+{
+    const double before = mismatch_, scale = this->scale(found, answer);
+    double largest = 0;
+    for (int b = 0; b < int(found.size()); ++b) largest = std::max(largest, changes_[b] = change(b, found, answer));
+    mismatch_ = scale > 0 ? largest/scale : largest > 0; // without gravity and contact: whether one was expected
+    if (repeats_ > 0 && mismatch_ > before) anderson_.reset(); // contacts that open or close: a plain step converges
+    if (!(mismatch_ > controls_.tolerance) || !mayRepeat()) return true;
+    ++repeats_;
+    Eigen::VectorXd image(6*found.size()), residual(6*found.size());
+    for (int b = 0; b < int(found.size()); ++b)
     {
-        loads[b].force = values.segment<3>(6*b)*(masses_[b]*factors[b].mass/dt_);
-        loads[b].moment = values.segment<3>(6*b + 3)*(masses_[b]*factors[b].turn*arms_[b]/dt_);
+        image.segment<6>(6*b) = scaled(b, found[b]);
+        residual.segment<6>(6*b) = velocity(b, found[b], answer) - velocity(b, guess_[b], answer);
     }
-    return loads;
+    const Eigen::VectorXd next = anderson_.next(image, residual);
+    for (int b = 0; b < int(found.size()); ++b) guess_[b] = unscaled(b, next.segment<6>(6*b));
+    return false;
 }
 
 } // namespace flotsam

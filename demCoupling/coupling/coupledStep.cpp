@@ -195,7 +195,8 @@ void CoupledStep::solveWithContact(StepResult& result)
         if (isNewLoad && result.solves == 2) contactChange_ = report.initial;
         contactRepeats_ = result.solves - 1;
         PhaseTimer t(timers_, Phase::Dem);
-        isNewLoad = !coupling_->correct(scene_.bodyLoads(loads_, *coupling_, fluid_.newLoadShare()));
+        isNewLoad = correctContact(result);
+        if (!result.failure.empty()) return;
         if (!isNewLoad && enough == 0) break;
     }
     result.contactMismatch = coupling_->mismatch();
@@ -203,6 +204,28 @@ void CoupledStep::solveWithContact(StepResult& result)
     const std::string stray = coupling_->strayBody(strayElements*smallestCutElement());
     if (!stray.empty()) result.failure = "body '" + stray + "' ends more than " + std::to_string(int(strayElements)) + " elements from where it was predicted";
     else result.failure = coupling_->brokenContact(largestSpeed(mesh_, halo_, fluid_.state().u));
+}
+
+/// Whether the fluid is to be solved again, with another contact load or because it was asked for what it answers to others.
+bool CoupledStep::correctContact(StepResult& result)
+{
+    const auto bodyLoads = [&] { return scene_.bodyLoads(loads_, *coupling_, fluid_.newLoadShare()); };
+    const std::vector<Load> loads = bodyLoads();
+    ContactAnswer answer = coupling_->correct(loads);
+    if (answer != ContactAnswer::AsksFluid) return answer == ContactAnswer::Changes;
+    for (; answer == ContactAnswer::AsksFluid; answer = coupling_->correct(loads))
+    {
+        for (int k = 0; k < coupling_->nProbes(); ++k)
+        {
+            coupling_->startProbe(k);
+            solveFlow(result, 0);
+            if (!result.failure.empty()) break;
+            coupling_->takeProbe(k, bodyLoads());
+        }
+        coupling_->finishProbes();
+        if (!result.failure.empty()) break;
+    }
+    return true;
 }
 
 /// A step begins without trials.

@@ -79,6 +79,7 @@ private:
     double smallestCutElement() const;  ///< [m]; huge where nothing is cut
     SolveReport solveFlow(StepResult& result, double enough);
     void solveWithContact(StepResult& result);
+    bool correctContact(StepResult& result);
     void forgetContact();
     void letIn(double time);
     void takeOutLeavers();

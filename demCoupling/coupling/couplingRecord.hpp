@@ -13,7 +13,7 @@ enum class Presence : char { There = 0, Left = 1, Awaited = 2 };
 struct CouplingRecord
 {
     std::vector<Load> wallLoads, lastLoads, contact, guess;
-    std::vector<InertiaFactor> factors;
+    std::vector<LoadShare> shares;
     std::vector<double> smooth;     ///< SmoothMotion::save()
     std::vector<char> isHeld;
     std::vector<Presence> presence;
@@ -27,7 +27,7 @@ template <class Archive, class Record>
 void passRecord(Archive& archive, Record& record)
 {
     passAll(archive, record.wallLoads, record.lastLoads, record.contact, record.guess);
-    passAll(archive, record.factors, record.smooth, record.isHeld, record.presence);
+    passAll(archive, record.shares, record.smooth, record.isHeld, record.presence);
     passAll(archive, record.counts, record.wallCounts, record.largestOverlap, record.peaks, record.wallPeaks);
 }
 

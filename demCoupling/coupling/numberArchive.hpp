@@ -52,8 +52,8 @@ void pass(Archive& archive, T& value)
         passAll(archive, value.force, value.moment);
     else if constexpr (std::is_same_v<Type, RestraintLoad>)
         passAll(archive, value.force, value.tension, value.largest, value.length, value.isBroken);
-    else if constexpr (std::is_same_v<Type, InertiaFactor>)
-        passAll(archive, value.mass, value.turn);
+    else if constexpr (std::is_same_v<Type, LoadShare>)
+        for (int k = 0; k < value.size(); ++k) archive.number(value.data()[k]);
     else if constexpr (std::is_same_v<Type, BodyState>)
         passAll(archive, value.pose.position, value.pose.orientation, value.motion.velocity, value.motion.angularVelocity, value.angularMomentum);
     else for (auto& part : value) pass(archive, part);

@@ -34,7 +34,8 @@ SmoothMotion::SmoothMotion(const std::vector<BodyDefinition>& bodies, const std:
     for (std::size_t b = 0; b < states.size(); ++b) last_[b].mean = states[b].motion;
 }
 
-void SmoothMotion::find(const std::vector<BodyState>& before, const std::vector<BodyState>& after, const std::vector<Load>& contact, double dt)
+void SmoothMotion::find(const std::vector<BodyState>& before, const std::vector<BodyState>& after, const std::vector<Load>& contact, double dt,
+    const std::vector<char>& isAnswered)
 {
     for (std::size_t b = 0; b < bodies_.size(); ++b)
     {
@@ -43,7 +44,7 @@ void SmoothMotion::find(const std::vector<BodyState>& before, const std::vector<
         engine_[b] = found_[b] = after[b];
         drive_[b] = contact[b];
         isTouched_[b] = !contact[b].isZero();
-        if (isTouched_[b])
+        if (isTouched_[b] && (isAnswered.empty() || !isAnswered[b]))
         {
             const double share = dt/(dt + last_[b].dt);
             const Motion& last = last_[b].mean;

@@ -20,8 +20,10 @@ class SmoothMotion
 public:
     SmoothMotion(const std::vector<BodyDefinition>& bodies, const std::vector<BodyState>& states);
 
-    /// From the engine's last run: states before and after, mean contact loads over the step.
-    void find(const std::vector<BodyState>& before, const std::vector<BodyState>& after, const std::vector<Load>& contact, double dt);
+    /// From the engine's last run: states before and after, mean contact loads over the step. isAnswered: bodies whose engine has what the fluid
+    /// answers (fluidAnswer.hpp). They vibrate together with their water: their end velocity is its velocity as well.
+    void find(const std::vector<BodyState>& before, const std::vector<BodyState>& after, const std::vector<Load>& contact, double dt,
+        const std::vector<char>& isAnswered = {});
 
     /// That with fluid and weight leads from states() to what was found; without vibration the contact load [N, N m].
     const std::vector<Load>& drive() const { return drive_; }

@@ -328,6 +328,20 @@ void takeForces(LiggghtsModel& model, const std::vector<int>& spheres)
     }
 }
 
+void answerContacts(LiggghtsModel& model, const std::vector<Load>& given)
+{
+    const BodyArrays& b = model.bodies;
+    for (const BodyShare& shared : model.shares)
+    {
+        Vector6 contact;
+        contact << Vec3::Map(b.fcm[shared.body]), Vec3::Map(b.torque[shared.body]);
+        const Vector6 answer = shared.share * contact - contact;
+        const Load& load = given[static_cast<size_t>(shared.body)];
+        Vec3::Map(b.drag[shared.body]) = load.force + answer.head<3>();
+        Vec3::Map(b.hdTorque[shared.body]) = load.moment + answer.tail<3>();
+    }
+}
+
 void rebuildNeighbours(LiggghtsModel& model)
 {
     // what Verlet::run does when it rebuilds

@@ -91,7 +91,23 @@ SphereDamping::Row SphereDamping::inverseRoot(int body, const Vec3& arm, const V
     const double* const axes[3] = {b.ex[body], b.ey[body], b.ez[body]};
     for (int k = 0; k < 3; ++k)
         row[3 + k] = turn.dot(asVec(axes[k])) / std::sqrt(b.inertia[body][k]);
+    for (const BodyShare& shared : model_.shares)
+        if (shared.body == body)
+            row *= std::sqrt(sharedMobility(body, shared.share, normal, turn) / row.squaredNorm());
     return row;
+}
+
+/// Of a body with the fluid's answer: what a unit impulse along the normal, of this moment, changes of the velocity there [1/kg].
+double SphereDamping::sharedMobility(int body, const LoadShare& share, const Vec3& normal, const Vec3& turn) const
+{
+    const BodyArrays& b = model_.bodies;
+    Vector6 impulse, velocity;
+    impulse << normal, turn;
+    velocity << normal / b.mass[body], Vec3::Zero();
+    const double* const axes[3] = {b.ex[body], b.ey[body], b.ez[body]};
+    for (int k = 0; k < 3; ++k)
+        velocity.tail<3>() += asVec(axes[k]) * (turn.dot(asVec(axes[k])) / b.inertia[body][k]);
+    return velocity.dot(share * impulse);
 }
 
 /// Relative velocity of two bodies: (a - b)^2 <= (1 + s) a^2 + (1 + 1/s) b^2 splits their common matrix into one of each; with s the ratio of

@@ -45,6 +45,7 @@ private:
     void addMeshes();
     void addWallContact(int sphere, int wallClass, int wall, const Vec3& point);
     Row inverseRoot(int body, const Vec3& arm, const Vec3& normal) const;
+    double sharedMobility(int body, const LoadShare& share, const Vec3& normal, const Vec3& turn) const;
     int bodyOf(int sphere) const;
     double damping(int sphere, int otherClass) const;
     Partner& partner(const Side& side);

@@ -35,7 +35,7 @@ struct LiggghtsEngine::Implementation
 
     explicit Implementation(const DemSetup& given)
         : nBodies(given.bodies.size()), setup(completed(given)), reach(setup.bodies, given.walls, nBodies), isHeld(setup.bodies.size(), 0),
-          loads(setup.bodies.size()), factors(setup.bodies.size()), applied(setup.bodies.size())
+          loads(setup.bodies.size())
     {
         model.firstMover = static_cast<int>(nBodies);
         model.contacts = makeContactTable(setup);
@@ -129,25 +129,8 @@ struct LiggghtsEngine::Implementation
         if (model.isGone[static_cast<size_t>(body)])
             state.pose = model.exits[static_cast<size_t>(body)];
         state.motion = {asVec(b.vcm[body]), asVec(b.omega[body])};
-        state.angularMomentum = asVec(b.angmom[body]) / applied[static_cast<size_t>(body)].turn;
+        state.angularMomentum = asVec(b.angmom[body]);
         return state;
-    }
-
-    /// Exact: the factors are powers of two.
-    void scaleInertia(const std::vector<InertiaFactor>& wanted)
-    {
-        const BodyArrays& b = model.bodies;
-        for (int i = 0; i < b.count; ++i)
-        {
-            const InertiaFactor &to = wanted[static_cast<size_t>(i)], &from = applied[static_cast<size_t>(i)];
-            b.mass[i] *= to.mass / from.mass;
-            for (int k = 0; k < 3; ++k)
-            {
-                b.inertia[i][k] *= to.turn / from.turn;
-                b.angmom[i][k] *= to.turn / from.turn;
-            }
-        }
-        applied = wanted;
     }
 
     bool isAnyTouched() const
@@ -173,8 +156,7 @@ struct LiggghtsEngine::Implementation
     ReachCheck reach;
     std::vector<char> isHeld;
     std::vector<Vec3> moverStart;       ///< of the last advance [m]
-    std::vector<Load> loads;            ///< of the bodies alone: over their factors
-    std::vector<InertiaFactor> factors, applied;
+    std::vector<Load> loads;            ///< beside contact
     LiggghtsModel model;
     std::optional<CornerSpheres> corners;
     double timeStep = 0;
@@ -185,7 +167,7 @@ LiggghtsEngine::LiggghtsEngine(const DemSetup& setup) : impl_(std::make_unique<I
 
 LiggghtsEngine::~LiggghtsEngine() = default;
 
-void LiggghtsEngine::setInertiaFactors(const std::vector<InertiaFactor>& factors) { std::copy(factors.begin(), factors.end(), impl_->factors.begin()); }
+void LiggghtsEngine::setShares(const std::vector<BodyShare>& shares) { impl_->model.shares = shares; }
 
 void LiggghtsEngine::setLoads(const std::vector<Load>& loads)
 {
@@ -195,18 +177,24 @@ void LiggghtsEngine::setLoads(const std::vector<Load>& loads)
     for (int i = 0; i < impl_->model.firstMover; ++i)
     {
         // fcm and torque hold the last total: exchanging the load there makes the first half kick right
-        const Load contact = impl_->contactNow(i);
-        const Load& load = loads[static_cast<size_t>(i)];
-        const InertiaFactor factor = impl_->factors[static_cast<size_t>(i)];
-        impl_->loads[static_cast<size_t>(i)] = {load.force / factor.mass, load.moment / factor.turn};
+        const Load contact = impl_->contactNow(i), &load = loads[static_cast<size_t>(i)];
+        impl_->loads[static_cast<size_t>(i)] = load;
         for (int k = 0; k < 3; ++k)
         {
             b.drag[i][k] = load.force[k];
             b.hdTorque[i][k] = load.moment[k];
-            b.fcm[i][k] = contact.force[k] + load.force[k];
-            b.torque[i][k] = contact.moment[k] + load.moment[k];
+            b.fcm[i][k] = contact.force[k];
+            b.torque[i][k] = contact.moment[k];
         }
     }
+    answerContacts(impl_->model, impl_->loads);
+    for (int i = 0; i < impl_->model.firstMover; ++i)
+        for (int k = 0; k < 3; ++k)
+        {
+            b.fcm[i][k] += b.drag[i][k];
+            b.torque[i][k] += b.hdTorque[i][k];
+        }
+    impl_->model.loads = impl_->loads;
 }
 
 void LiggghtsEngine::advance(double duration, double largestStep)
@@ -223,7 +211,6 @@ void LiggghtsEngine::advance(double duration, double largestStep)
         rebuildNeighbours(d.model);
     d.model.tally->start();
     d.noteMovers();
-    d.scaleInertia(d.factors);
     for (double left = duration; left > 1e-12 * duration;)
     {
         const Implementation::Interval next = d.nextInterval(left, largestStep);
@@ -231,7 +218,6 @@ void LiggghtsEngine::advance(double duration, double largestStep)
         left -= next.duration;
     }
     d.model.tally->finish(duration);
-    d.scaleInertia(std::vector<InertiaFactor>(d.factors.size()));
     placeSpheres(d.model);
     d.corners->look();
     d.model.instance.guarded([&] {

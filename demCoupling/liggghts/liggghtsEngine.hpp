@@ -42,9 +42,8 @@ public:
     LiggghtsEngine(const LiggghtsEngine&) = delete;
     LiggghtsEngine& operator=(const LiggghtsEngine&) = delete;
 
-    /// Of mass and inertia during the coming advances, and so of what the loads must be: fluid that moves with a body. States stay those of
-    /// the body itself, to the last bit.
-    void setInertiaFactors(const std::vector<InertiaFactor>& factors);
+    /// Of contact loads during the coming advances, of some bodies: the rest is answered at once by fluid that moves with them. Reset by the next call.
+    void setShares(const std::vector<BodyShare>& shares);
     /// Constant loads (fluid force, weight, ...) for the coming advance(s); exact from the first half kick.
     void setLoads(const std::vector<Load>& loads);
 

@@ -73,6 +73,8 @@ struct LiggghtsModel
     std::vector<int> classOfSphere;     ///< in `contacts`
     std::vector<char> isRetreated;      ///< per sphere: a corner that touches nothing, see CornerSpheres
     ContactTable contacts;
+    std::vector<Load> loads;            ///< given to the bodies beside contact, constant over a call
+    std::vector<BodyShare> shares;      ///< of contact loads, where the fluid answers them within the call
 };
 
 // liggghtsScript.cpp
@@ -99,6 +101,8 @@ void placeSpheres(LiggghtsModel& model);
 /// What LIGGGHTS does with all spheres in every sub-step: positions and velocities; forces added to those of the bodies, and cleared.
 void placeSpheres(LiggghtsModel& model, const std::vector<int>& spheres);
 void takeForces(LiggghtsModel& model, const std::vector<int>& spheres);
+/// Of contact loads (in fcm and torque, alone) what the fluid answers joins the given loads.
+void answerContacts(LiggghtsModel& model, const std::vector<Load>& given);
 /// Lists of neighbours for the present positions of the spheres.
 void rebuildNeighbours(LiggghtsModel& model);
 

@@ -11,7 +11,7 @@ namespace flotsam
 DemSetup completed(const DemSetup& given);
 
 /// The sub-step [s] of free flight over `duration` [s]: under constant loads ways are exact at any step, turning is not, so that no body turns by more than a small angle in one.
-/// Loads [N, N m] are over the bodies' factors of inertia; movers count as bodies do.
+/// loads: of fluid and weight [N, N m]; movers count as bodies do.
 double freeFlightStep(const DemSetup& setup, const std::vector<BodyState>& states, const std::vector<Load>& loads, const std::vector<char>& isHeld,
                       const std::vector<char>& isGone, double duration);
 

@@ -141,6 +141,7 @@ void ContactTally::pre_final_integrate()
 {
     takeForces(model_, model_.near->active());
     model_.restraints->pull(lmp->update->dt);
+    answerContacts(model_, model_.loads);
     hideSpheres();
 }
 

@@ -4,8 +4,6 @@
 
 #include <doctest/doctest.h>
 
-#include <numeric>
-
 using namespace flotsam;
 
 namespace
@@ -35,7 +33,7 @@ CouplingRecord makeRecord()
     CouplingRecord record;
     for (auto* loads : {&record.lastLoads, &record.contact, &record.guess}) loads->resize(2);
     record.wallLoads.resize(3);
-    record.factors.resize(2);
+    record.shares.resize(2);
     record.smooth.resize(26);
     record.isHeld.resize(2);
     record.presence.resize(2);
@@ -48,15 +46,15 @@ CouplingRecord makeRecord()
 
 TEST_CASE("what is written of a record is what is read, in the files' order")
 {
-    std::vector<double> numbers(6*(3 + 3*2) + 2*2 + 26 + 2 + 2 + 2 + 3 + 1);
-    std::iota(numbers.begin(), numbers.end(), 1);
+    std::vector<double> numbers(6*(3 + 3*2) + 2*36 + 26 + 2 + 2 + 2 + 3 + 1);
+    for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = 1 + double(k % 100); // flags are characters
     CouplingRecord record = makeRecord();
     NumberReader reader(numbers.data());
     passRecord(reader, record);
     CHECK(numbersOf(record) == numbers);
     CHECK(record.wallLoads[1].moment[0] == 10);
     CHECK(record.lastLoads[0].force[0] == 19);
-    CHECK(record.factors[0].turn == 56);
+    CHECK(record.shares[0](1, 0) == 56);
     CHECK(record.largestOverlap == numbers.back());
 }
 

@@ -81,7 +81,7 @@ TEST_CASE("a buoyant bar tethered to the bed: tension is buoyancy less weight; a
     CHECK(other->records()[0].pose.position == run->records()[0].pose.position);
 }
 
-TEST_CASE("a light bar on a tether: fluid that moves with it is given to the engine, the tension stays")
+TEST_CASE("a light bar on a tether of little damping: the engine has what the fluid answers, the tension stays")
 {
     using namespace bodyTank;
     Tank tank;
@@ -89,14 +89,19 @@ TEST_CASE("a light bar on a tether: fluid that moves with it is given to the eng
     bar.mass /= 12;     // 50 kg/m3
     bar.principalInertia /= 12;
     DemSetup dem = makeDem({bar});
-    dem.restraints = {tether(Vec3(0, -bodyTank::side/2, 0), Vec3(0.5, 0, 0.5), 0.2, 1e5, 1000)};   // with less damping its tension shakes: docs/contact.md
+    dem.restraints = {tether(Vec3(0, -bodyTank::side/2, 0), Vec3(0.5, 0, 0.5), 0.2, 1e5, 100)};    // damping ratio 0.05 with the water that moves along
     const double lift = (1000 - 50)*bar.volume*g;
     const auto run = makeRun(tank, dem);
     run->start(tank.rest(), true);
-    for (int k = 0; k < 100; ++k) REQUIRE(run->step(0.01).isAccepted);
-    const double tension = run->coupling()->restraintLoads()[0].tension;
-    std::printf("light: tension %.5f N, buoyancy less weight %.5f N (%.4f %%)\n", tension, lift, 100*(tension/lift - 1));
-    CHECK(tension == near(lift, 5e-3));
+    double tension = 0, most = 0; // [N], of the last steps
+    for (int k = 0; k < 150; ++k)
+    {
+        REQUIRE(run->step(0.01).isAccepted);
+        tension = run->coupling()->restraintLoads()[0].tension;
+        if (k >= 100) most = std::max(most, std::abs(tension - lift));
+    }
+    std::printf("light: tension %.5f N, buoyancy less weight %.5f N (%.4f %%), in the last 50 steps at most %.4f %% off\n", tension, lift, 100*(tension/lift - 1), 100*most/lift);
+    CHECK(most < 1e-3*lift); // with factors of mass 4 %
 }
 
 namespace
