@@ -271,12 +271,15 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     reportPatches(controls, adapter, halo, boundary, step.fluid().state(), step.cover(), runTime.value(), runTime.endTime().value());
     WriteTimes writeTimes(runTime, output.firstStart(), output.lastStep(), controls.time.adjustTimeStep ? motionJumps(bodies) : std::vector<double>());
     output.begin(step);
+    fields.begin(step.cover());
     WallForceFiles forceFiles(runTime, adapter.mesh, wallForces);
     if (!wallForces.empty()) step.fluid().watchPatches(watchedPatches(wallForces));
     mesh.primitiveMesh::clearAddressing();  // cells, edges and the like that only the start needed; the geometry must stay: fields of the fvMesh are slices of it
     installStopSignals();
 
     EditedControls edited(controls.time);
+    const auto& fvSolution = mesh.lookupObject<Foam::IOdictionary>("fvSolution");  // OpenFOAM's, which reads it again when it is edited
+    EditedNumerics numerics(fvSolution);
     fitFirstStep(runTime, controls.time, output.timeStep() <= 0);
     if (!reportEnded(runTime)) warnUnwritten(runTime, writeTimes);
     bool isComplete = true;
@@ -285,6 +288,8 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     {
         const std::string change = edited.update(runTime.controlDict());
         if (!change.empty()) Foam::Info<< change.c_str() << Foam::endl;
+        const std::string ignored = numerics.update(fvSolution);
+        if (!ignored.empty()) Foam::Info<< ignored.c_str() << Foam::endl;
         const TimeControls& time = edited.now();
         const double ahead = timeStepGrowth*dt;
         const CourantNumbers rates = courantRates(step, ahead);
@@ -337,7 +342,7 @@ int main(int argc, char* argv[])
     const auto end = [](const std::exception& error) { FatalErrorInFunction << error.what() << Foam::exit(Foam::FatalError); };
     try
     {
-        flotsam::checkFileHandler();
+        flotsam::checkFileHandler(args.rootPath()/args.globalCaseName());
         const Foam::dictionary controlDict = flotsam::readControlDict(args.rootPath()/args.globalCaseName()/"system"/Foam::Time::controlDictName);
         flotsam::checkTimeEntries(controlDict);
         if (const std::string doubt = flotsam::doubtfulWriting(controlDict); !doubt.empty()) Foam::Info<< "Warning: " << doubt.c_str() << Foam::nl;

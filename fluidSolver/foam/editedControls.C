@@ -42,4 +42,14 @@ std::string EditedControls::update(const Foam::dictionary& controlDict)
     return text("system/controlDict was changed: time step ", describe(time_));
 }
 
+EditedNumerics::EditedNumerics(const Foam::dictionary& fvSolution) : atStart_(fvSolution.subOrEmptyDict("flotsam").digest()), last_(atStart_) {}
+
+std::string EditedNumerics::update(const Foam::dictionary& fvSolution)
+{
+    const Foam::SHA1Digest now = fvSolution.subOrEmptyDict("flotsam").digest();
+    if (now == last_) return "";
+    last_ = now;
+    return now == atStart_ ? "" : "Warning: `flotsam` of system/fvSolution was changed. This run keeps what it has started with; the next one, with startFrom latestTime, goes on with what is changed";
+}
+
 } // namespace flotsam

@@ -144,11 +144,20 @@ bool FoamFields::isNeeded() const
 
 void FoamFields::update(const FlowState& state, const std::vector<double>& width, const Cover* cover, const std::vector<Solid>& solids)
 {
+    storeOldTimes();
     updateNodal(state, cover, solids);
     updateCells(state, width, cover, solids);
     updatePatches();
     updatePointFields();
     if (cover) updateSolidFraction(*cover);
+}
+
+/// Function objects that look back (ddt) have OpenFOAM keep a field's last values, which it does where solvers assign fields as a whole: here cells are set one by one.
+void FoamFields::storeOldTimes()
+{
+    velocity_.storeOldTimes();
+    for (const auto* field : {&pressure_, &pressureRgh_, &alpha_, &solid_})
+        if (*field) (*field)->storeOldTimes();
 }
 
 void FoamFields::updateNodal(const FlowState& state, const Cover* cover, const std::vector<Solid>& solids)

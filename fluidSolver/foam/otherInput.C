@@ -3,6 +3,7 @@
 
 #include "foam/dictionaryChecks.H"
 
+#include "OSspecific.H"
 #include "Time.H"
 #include "fileOperation.H"
 #include "processorPolyPatch.H"
@@ -71,11 +72,15 @@ std::string describeStray(const std::vector<std::string>& strays, const Foam::po
     return joined(described);
 }
 
-void checkFileHandler()
+void checkFileHandler(const Foam::fileName& folder)
 {
+    if (!Foam::Pstream::parRun()) return;
     const Foam::word& type = Foam::fileHandler().type();
-    if (!Foam::Pstream::parRun() || (type != "collated" && type != "hostCollated")) return;
-    failOnAll(text("fileHandler ", std::string(type), " is not available: every process reads and writes in its own folder processor*; allowed: uncollated, masterUncollated.\n"
+    const Foam::fileName gathered = folder/("processors" + std::to_string(Foam::Pstream::nProcs()));
+    const bool isGathered = !Foam::isDir(folder/"processor0") && Foam::isDir(gathered);     // by a decomposePar of another fileHandler than the run's
+    if (type != "collated" && type != "hostCollated" && !isGathered) return;
+    failOnAll(text(isGathered ? text("There is no processor0, but ", std::string(gathered), ", as fileHandler collated decomposes, which") : text("fileHandler ", std::string(type)),
+        " is not available: every process reads and writes in its own folder processor*; allowed: uncollated, masterUncollated.\n"
         "    Decompose with `decomposePar -fileHandler uncollated`, and run without the option -fileHandler, the environment variable FOAM_FILEHANDLER and the entry fileHandler"
         " (OptimisationSwitches)."));
 }

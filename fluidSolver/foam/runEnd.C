@@ -29,7 +29,12 @@ bool reportStopped(const Foam::Time& runTime)
     const Foam::dictionary& controls = runTime.controlDict();   // the clock's own endTime is the time of the stop
     const Foam::word stopAt = controls.getOrDefault<Foam::word>("stopAt", "endTime");
     const double endTime = controls.getOrDefault<double>("endTime", runTime.value());
-    if (stopAt == "endTime" || runTime.value() > endTime - 0.5*runTime.deltaTValue()) return false;
+    if (runTime.value() > endTime - 0.5*runTime.deltaTValue()) return false;
+    if (stopAt == "endTime")    // meant to end here, and so no run that was broken off
+    {
+        Foam::Info<< "Ended by a function object of system/controlDict at " << runTime.timeName() << " s, before endTime, " << endTime << " s\n" << Foam::endl;
+        return false;
+    }
     Foam::Info<< "Stopped by stopAt " << stopAt << " of system/controlDict at " << runTime.timeName() << " s, before endTime, " << endTime << " s. "
         << (stopAt == "noWriteNow" ? "Nothing was written there" : "The state is written") << "; with stopAt endTime the run goes on from its last written time\n" << Foam::endl;
     return true;

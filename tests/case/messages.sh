@@ -208,6 +208,9 @@ echo 'FoamFile { version 2.0; format ascii; class dictionary; object decomposePa
 (cd gathered && quietly decomposePar -fileHandler collated && timeout 60 mpirun -np 2 flotsamFoam -parallel -fileHandler collated) > gathered.log 2>&1 && fail "files that OpenFOAM gathers are accepted"
 [ "$(grep -c 'fileHandler collated is not available: .* allowed: uncollated, masterUncollated' gathered.log)" -eq 1 ] || fail "files that OpenFOAM gathers: not said once"
 
+(cd gathered && timeout 60 mpirun -np 2 flotsamFoam -parallel) > gathered.log 2>&1 && fail "a case that OpenFOAM has gathered is accepted"
+grep -q 'There is no processor0, but .*gathered/processors2, as fileHandler collated decomposes, .*decomposePar -fileHandler uncollated' <(tr '\n' ' ' < gathered.log) || fail "a case that OpenFOAM has gathered: no word"
+
 # a run that was killed while it wrote leaves a time that not every process has
 rm -rf differing && cp -r good differing
 setEntry differing/system/controlDict startFrom latestTime

@@ -199,6 +199,16 @@ TEST_CASE("a mistake in controlDict while the run goes on is told once and chang
     CHECK(has(edited.update(parse("deltaT 0.01; maxCo half;")), "'maxCo' is 'half'"));
 }
 
+TEST_CASE("fvSolution edited while the run goes on: that `flotsam` stays what it was is said once")
+{
+    EditedNumerics numerics(parse("flotsam { tolerance 1e-4; } solvers { }"));
+    CHECK(numerics.update(parse("flotsam { tolerance 1e-4; } solvers { p { tolerance 1; } }")).empty());
+    CHECK(has(numerics.update(parse("flotsam { tolerance 1e-6; }")), "`flotsam` of system/fvSolution was changed. This run keeps what it has started with"));
+    CHECK(numerics.update(parse("flotsam { tolerance 1e-6; }")).empty());
+    CHECK(numerics.update(parse("flotsam { tolerance 1e-4; }")).empty());
+    CHECK_FALSE(numerics.update(parse("")).empty());
+}
+
 TEST_CASE("controlDict: times that are no numbers, and far more time folders than meant")
 {
     const auto message = [](const std::string& contents) { return messageOf([&] { checkTimeEntries(parse(contents)); }); };
