@@ -2,6 +2,7 @@
 /// The part of RunOutput that writes the run's state and continues it.
 #include "demCoupling/foam/runOutput.H"
 
+#include "demCoupling/foam/continuedContact.H"
 #include "demCoupling/foam/continuedMotion.H"
 #include "foam/dictionaryChecks.H"
 #include "io/fluidRecord.hpp"
@@ -236,6 +237,20 @@ void RunOutput::checkRestraints(const RunState& state) const
         " breakingForce)" + startAnew);
 }
 
+/// Contact is stored by the numbers of what touches. Where bodies start is of no more consequence: said, as the edit was meant to have one. States of earlier versions know neither.
+void RunOutput::checkContact(const RunState& state) const
+{
+    const std::string begin = "constant/bodies is not that of the stored state of time " + runTime_.timeName() + ": ";
+    const auto names = state.arrays.find("contactNames"), sizes = state.arrays.find("contactSizes"), starts = state.arrays.find("bodyStarts");
+    if (names != state.arrays.end() && sizes != state.arrays.end())
+    {
+        const std::string change = changedContact({namesFrom(names->second), sizes->second}, contactParts(bodies_));
+        if (!change.empty()) throw std::runtime_error("restart: " + begin + change + ". Continue with what it was (`wallPatches`, `contact`)" + startAnew);
+    }
+    const std::string moved = starts == state.arrays.end() ? "" : bodiesStartedElsewhere(bodies_, starts->second);
+    if (!moved.empty()) Foam::Info<< "Warning: " << begin.c_str() << moved.c_str() << ". The change does not count: bodies go on from where the state has them.\n" << Foam::endl;
+}
+
 /// The state's own properties are in its pressure, velocities and loads alone: it goes on with others, which may be meant.
 void RunOutput::warnOtherFluid(const RunState& state) const
 {
@@ -259,6 +274,7 @@ void RunOutput::checkContinued(const RunState& state) const
 {
     checkMembers(state);
     checkMotions(state);
+    checkContact(state);
     checkRestraints(state);
     warnOtherFluid(state);
 }
@@ -297,6 +313,13 @@ void RunOutput::writeState(const CoupledStep& step, double timeStep)
     state.arrays["mesh"] = meshRecord(mesh_, halo_);
     state.arrays["members"] = codesOf(members_);
     state.arrays["descriptions"] = descriptions_;
+    if (!bodies_.bodies.empty())
+    {
+        const ContactParts parts = contactParts(bodies_);
+        state.arrays["contactNames"] = codesOf(parts.names);
+        state.arrays["contactSizes"] = parts.sizes;
+        state.arrays["bodyStarts"] = bodyStarts(bodies_);
+    }
     state.scalars = {{"initialLiquid", mass_.initial}, {"inflow", mass_.inflow}, {"outflow", mass_.outflow}, {"liquid", mass_.final},
         {"steps", double(steps_)}, {"redistributed", redistributed_}, {"timeStep", timeStep}, {"firstStart", firstStart_},
         {"largestOverlap", largestOverlap_}};

@@ -77,9 +77,10 @@ void checkFileHandler(const Foam::fileName& folder)
     if (!Foam::Pstream::parRun()) return;
     const Foam::word& type = Foam::fileHandler().type();
     const Foam::fileName gathered = folder/("processors" + std::to_string(Foam::Pstream::nProcs()));
+    const bool gathers = type == "collated" || type == "hostCollated";
     const bool isGathered = !Foam::isDir(folder/"processor0") && Foam::isDir(gathered);     // by a decomposePar of another fileHandler than the run's
-    if (type != "collated" && type != "hostCollated" && !isGathered) return;
-    failOnAll(text(isGathered ? text("There is no processor0, but ", std::string(gathered), ", as fileHandler collated decomposes, which") : text("fileHandler ", std::string(type)),
+    if (!gathers && !isGathered) return;
+    failOnAll(text(!gathers ? text("There is no processor0, but ", std::string(gathered), ", as fileHandler collated decomposes, which") : text("fileHandler ", std::string(type)),
         " is not available: every process reads and writes in its own folder processor*; allowed: uncollated, masterUncollated.\n"
         "    Decompose with `decomposePar -fileHandler uncollated`, and run without the option -fileHandler, the environment variable FOAM_FILEHANDLER and the entry fileHandler"
         " (OptimisationSwitches)."));

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Stored states that do not fit: computed with other fluids (goes on, with a warning that names both values), cut off (refused with what can be done
-# without it, which then works; nothing is changed before); of an earlier run, ahead of the start (goes on, with a warning before and, where it was continued, after).
+# without it, which then works; nothing is changed before); of other walls (refused) and other starts of bodies (warned of); of an earlier run, ahead of the start (goes on, with a warning before and, where it was continued, after).
 . "$(dirname "$0")/support.sh"
 mkdir -p "$work" && cd "$work" || exit
 rm -rf ./*
@@ -82,6 +82,11 @@ another stopped 'sed -i "s/velocity (0 0.5 0)/velocity (0 0 0)/; s/position (0.0
 another shared 'rm 0.002/flotsamState.h5; sed -i "s/velocity (0 0.5 0)/velocity (0 1 0)/; s/position (0.06 -0.05 /position (0.06 -0.051 /" constant/bodies' ''
 another jumpingShared 'rm 0.002/flotsamState.h5; sed -i "s/velocity (0 0.5 0)/velocity (0 1 0)/" constant/bodies' "'gate' would jump"
 another heldAgain 'sed -i "s/density /releaseTime 0.003; density /" constant/bodies' 'body bar, which moves in it, is stopped and held until its releaseTime, 0.003 s'
+another otherWalls 'echo "wallPatches (atmosphere);" >> constant/bodies' 'bodies touched patch walls and do so no more, and they now touch patch atmosphere. Continue with what it was'
+another noWalls 'echo "wallPatches none;" >> constant/bodies' 'bodies touched patch walls and do so no more. Continue'
+another untouched 'sed -i "s/motion { type linear/contact off; &/" constant/bodies' 'bodies touched structure gate and do so no more'
+another finer 'sed -i "s/density /spheres { radius 0.001; } density /" constant/bodies' 'body bar had [0-9]* contact spheres .* and now has [0-9]*. Continue'
+another startedElsewhere 'sed -i "s/position    (0 0.001/position    (0 0.002/" constant/bodies' 'position, orientation or velocity of bar. The change does not count'
 
 # Once more from the beginning, over the results of a run that went further, and stopped before it has come so far: latestTime is then of the earlier run. Both are told; a run
 # that goes on as it should is told nothing.
