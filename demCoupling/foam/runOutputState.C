@@ -172,8 +172,11 @@ void RunOutput::continueShared(CoupledStep& step, const FoamFields& fields)
     if (!isNodal) fields.readStart(start);
     start.time = state.flow.time;
     step.restore(std::move(start), state.arrays, isNodal ? CoupledStep::Fields::Nodal : CoupledStep::Fields::Cells);
+    if (!isNodal) warnOtherLiquid(step.fluid().liquidVolume());
     if (!isNodal) mass_.initial += step.fluid().liquidVolume() - mass_.final; // what reading the cells changes is no error of the run
-    Foam::Info<< "continuing from time " << runTime_.timeName() << " on other processes than those that wrote it: bodies, contact and sums exactly; velocity, pressure and "
+    const bool isRewritten = halo_.size() == 1 && Foam::isFile(runTime_.timePath()/"flotsamState.h5"); // by renumberMesh, foamFormatConvert, or on other processes and then copied
+    Foam::Info<< "continuing from time " << runTime_.timeName() << (isRewritten ? " on a mesh that was written anew since (another order or other digits of its points)"
+        : " on other processes than those that wrote it") << ": bodies, contact and sums exactly; velocity, pressure and "
         << "phase from " << (isNodal ? "the point fields, as accurate as written (writePrecision)" : "the volume fields, as there are no point fields to them: less accurate")
         << "; the first step is of first order in time" << Foam::endl;
 }
@@ -268,6 +271,15 @@ void RunOutput::warnOtherMesh(const RunState& state) const
     if (stored == state.arrays.end() || !isOtherMesh(stored->second, meshRecord(mesh_, halo_))) return;
     Foam::Info<< "Warning: the mesh is not that of the stored state of time " << runTime_.timeName() << ": its points lie elsewhere. Each keeps its values, as if the water had moved along"
         << ".\n    Where that is not meant: put the mesh back, or start anew on the new one from mapped fields (mapFields)\n" << Foam::endl;
+}
+
+/// Volume fields of another order of the cells pass for ones that were changed.
+void RunOutput::warnOtherLiquid(double volume) const
+{
+    constexpr double ofReading = 0.02;  // what taking cells for nodes may change, and more
+    if (std::abs(volume - mass_.final) <= ofReading*mass_.final) return;
+    Foam::Info<< text("Warning: the fields of time ", std::string(runTime_.timeName()), " hold ", volume, " m^3 of liquid, the stored state ", mass_.final, " m^3. Where they were not changed on purpose (setFields),"
+        " the mesh was written anew in another order than theirs (renumberMesh renumbers the fields of one time alone): put the mesh back.\n").c_str() << Foam::endl;
 }
 
 void RunOutput::checkContinued(const RunState& state) const

@@ -113,6 +113,14 @@ setEntry elsewhere/system/controlDict endTime 0.006
 sed -i 's/(80 20 1)/(80 20 1.3)/' elsewhere/system/blockMeshDict
 (cd elsewhere && quietly blockMesh && quietly flotsamFoam) || exit
 grep -q 'the mesh is not that of the stored state of time 0.004' elsewhere/log.flotsamFoam || fail "a state of another mesh: no word"
+cp -r bar renumbered
+setEntry renumbered/system/controlDict endTime 0.006
+cp renumbered/system/controlDict controlDict.later
+setEntry renumbered/system/controlDict startFrom startTime
+setEntry renumbered/system/controlDict writeFormat ascii      # of the mesh: rounds its points
+(cd renumbered && quietly renumberMesh -overwrite && cp ../controlDict.later system/controlDict && quietly flotsamFoam) || exit    # the fields of time 0
+grep -q 'the fields of time 0.004 hold [0-9.]* m^3 of liquid, the stored state 0.002[0-9]* m^3' renumbered/log.flotsamFoam || fail "fields of another order of the cells: no word"
+grep -q 'time 0.004 on a mesh that was written anew since' renumbered/log.flotsamFoam || fail "a mesh that was written anew: taken for other processes"
 cp -r bar shared
 setEntry shared/system/controlDict endTime 0.006
 (cd shared && rm 0.004/flotsamState.h5 && quietly flotsamFoam) || exit
