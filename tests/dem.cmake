@@ -8,6 +8,7 @@ flotsam_test(demWalls unit SOURCES unit/demWalls.cpp ${dem_support} LIBRARIES fl
 flotsam_test(demThinTriangles unit SOURCES unit/demThinTriangles.cpp ${dem_support} LIBRARIES flotsam_liggghts)
 flotsam_test(demFacets unit SOURCES unit/demFacets.cpp ${dem_support} LIBRARIES flotsam_liggghts)
 flotsam_test(demMovers unit SOURCES unit/demMovers.cpp ${dem_support} LIBRARIES flotsam_liggghts)
+flotsam_test(demPairs unit SOURCES unit/demPairs.cpp ${dem_support} LIBRARIES flotsam_liggghts RANKS 1 2)
 flotsam_test(demCorners unit SOURCES unit/demCorners.cpp ${dem_support} LIBRARIES flotsam_liggghts)
 flotsam_test(demMotion verification SOURCES verification/demMotion.cpp ${dem_support} LIBRARIES flotsam_liggghts)
 flotsam_test(demRestraints verification SOURCES verification/demRestraints.cpp ${dem_support} LIBRARIES flotsam_liggghts)

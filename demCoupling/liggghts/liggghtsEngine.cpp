@@ -133,6 +133,15 @@ struct LiggghtsEngine::Implementation
         return state;
     }
 
+    template <class AnyContact>
+    std::vector<AnyContact> withMoversAsWalls(std::vector<AnyContact> contacts) const
+    {
+        const int n = model.firstMover, walls = static_cast<int>(setup.walls.size());
+        for (AnyContact& c : contacts)
+            if (c.other >= n) c.other = -1 - (walls + c.other - n);
+        return contacts;
+    }
+
     bool isAnyTouched() const
     {
         for (int b = 0; b < model.bodies.count; ++b)
@@ -253,14 +262,10 @@ std::vector<Vec3> LiggghtsEngine::peakWallForces() const
     return peaks;
 }
 
-std::vector<Contact> LiggghtsEngine::contacts() const
-{
-    std::vector<Contact> result = listContacts(impl_->model, impl_->setup);
-    const int n = impl_->model.firstMover, walls = static_cast<int>(impl_->setup.walls.size());
-    for (Contact& c : result)
-        if (c.other >= n) c.other = -1 - (walls + c.other - n);
-    return result;
-}
+void LiggghtsEngine::tallyPairs(bool isOn) { impl_->model.tally->pairs().setOn(isOn); }
+
+std::vector<MeanContact> LiggghtsEngine::meanContacts() const { return impl_->withMoversAsWalls(impl_->model.tally->pairs().means()); }
+std::vector<Contact> LiggghtsEngine::contacts() const { return impl_->withMoversAsWalls(listContacts(impl_->model, impl_->setup)); }
 
 void LiggghtsEngine::moveTo(const std::vector<Pose>& movers, double duration)
 {

@@ -2,6 +2,7 @@
 /// LIGGGHTS in process as a rigid-clump engine. The only interface to LIGGGHTS; no LIGGGHTS type is visible here.
 #pragma once
 
+#include "demCoupling/core/meanContact.hpp"
 #include "demCoupling/core/restraint.hpp"
 #include "demCoupling/core/rigidBody.hpp"
 
@@ -63,6 +64,10 @@ public:
     std::vector<Vec3> peakContactForces() const;
     std::vector<Vec3> peakWallForces() const;
     std::vector<Vec3> peakGroupForces() const;  ///< the same of the sums over DemSetup::wallGroups
+    /// Whether meanContacts() shall be known of the coming advances; costs a few per cent.
+    void tallyPairs(bool isOn);
+    /// Of the last advance, which was tallied: forces that add up, over the contacts of a body and with those of its restraints, to its meanContactLoads() to round-off. Movers count as walls behind the walls.
+    std::vector<MeanContact> meanContacts() const;
     std::vector<Contact> contacts() const;      ///< movers count as walls behind the walls
     std::vector<RestraintLoad> restraintLoads() const;  ///< of the last advance; forces and moments on bodies and movers are part of their contact loads
     bool hasContact() const;            ///< any force of contact or restraints in any sub-step of the last advance

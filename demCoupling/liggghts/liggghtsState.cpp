@@ -15,7 +15,8 @@ namespace flotsam
 namespace
 {
 
-constexpr double formatNumber = 3;
+constexpr double formatNumber = 4;
+constexpr double formatWithoutPairs = 3;    // those of older versions: half a sub-step's forces are missing in the first advance's means
 constexpr size_t headerLength = 4;
 constexpr size_t bodyLength = 11 * 3 + 4 + 8;
 constexpr size_t wallLength = 6;
@@ -83,6 +84,7 @@ DemState saveState(const LiggghtsModel& model)
     for (size_t b = 0; b < model.firstCorner.size(); ++b)
         data.insert(data.end(), model.isRetreated.begin() + model.firstCorner[b], model.isRetreated.begin() + model.firstSphere[b + 1]);
     appendHistories(model, data);
+    model.tally->pairs().append(data);
     model.restraints->append(data);
     return state;
 }
@@ -95,7 +97,7 @@ void restoreState(LiggghtsModel& model, const DemState& state)
     size_t cornerEnd = wallEnd;
     for (size_t b = 0; b < model.firstCorner.size(); ++b)
         cornerEnd += static_cast<size_t>(model.firstSphere[b + 1] - model.firstCorner[b]);
-    if (data.size() < cornerEnd || data[0] != formatNumber || data[1] != model.bodies.count
+    if (data.size() < cornerEnd || (data[0] != formatNumber && data[0] != formatWithoutPairs) || data[1] != model.bodies.count
         || data[2] != static_cast<double>(model.walls.size()) || data[3] != model.firstSphere.back())
         throw DemError("DEM state: it belongs to another case (number of bodies, walls or DEM spheres differs), or was written before boxes had spheres in their corners");
 
@@ -109,7 +111,11 @@ void restoreState(LiggghtsModel& model, const DemState& state)
         const double* load = data.data() + bodyEnd + w * wallLength;
         model.tally->wallsNow()[w] = {Vec3(load[0], load[1], load[2]), Vec3(load[3], load[4], load[5])};
     }
-    if (model.restraints->read(data, readHistories(model, data, cornerEnd)) != data.size())
+    size_t position = readHistories(model, data, cornerEnd);
+    model.tally->pairs().forget();
+    if (data[0] == formatNumber)
+        position = model.tally->pairs().read(data, position);
+    if (model.restraints->read(data, position) != data.size())
         throw DemError("DEM state: more data than this case needs");
 }
 

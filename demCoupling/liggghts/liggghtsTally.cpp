@@ -135,6 +135,8 @@ void ContactTally::post_force(int)
 {
     showSpheres();
     facets_.takeBack();
+    if (pairs_.isDue())
+        pairs_.readPairs();
 }
 
 void ContactTally::pre_final_integrate()
@@ -262,6 +264,8 @@ void ContactTally::sample()
 {
     wallNow_.assign(model_.walls.size(), {});
     readAll();
+    pairs_.readPairs();
+    pairs_.readWalls(nearPlane_);
     bodyMean_.assign(bodyNow_.size(), {});
     wallMean_.assign(wallNow_.size(), {});
     clearPeaks();
@@ -310,6 +314,7 @@ void ContactTally::start()
     bodySum_.assign(bodyNow_.size(), {});
     wallSum_.assign(wallNow_.size(), {});
     clearPeaks();
+    pairs_.start();
     model_.restraints->start();
 }
 
@@ -323,6 +328,7 @@ void ContactTally::startSteps(double step)
         hasContact_ = hasContact_ || !load.force.isZero(0);
     if (hasContact_)
         add(0.5 * step_);
+    pairs_.add(0.5 * step_);
     model_.restraints->startSteps(step_);
 }
 
@@ -337,6 +343,11 @@ void ContactTally::end_of_step()
         add(step_);
         keepPeaks();
     }
+    if (pairs_.isDue())
+    {
+        pairs_.readWalls(nearPlane_);
+        pairs_.add(step_);
+    }
     model_.restraints->endStep(step_);
 }
 
@@ -345,6 +356,7 @@ void ContactTally::finishSteps()
     damping_.finishSteps();
     if (hasContact_)
         add(-0.5 * step_); // the last force is used with its second half only
+    pairs_.add(-0.5 * step_);
     model_.restraints->finishSteps(step_);
     step_ = 0;
 }
@@ -355,6 +367,7 @@ void ContactTally::finish(double duration)
         bodyMean_[b] = {bodySum_[b].force / duration, bodySum_[b].moment / duration};
     for (size_t w = 0; w < wallSum_.size(); ++w)
         wallMean_[w] = {wallSum_[w].force / duration, wallSum_[w].moment / duration};
+    pairs_.finish(duration);
     model_.restraints->finish(duration);
 }
 

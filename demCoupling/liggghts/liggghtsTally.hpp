@@ -5,6 +5,7 @@
 #include "demCoupling/liggghts/liggghtsDamping.hpp"
 #include "demCoupling/liggghts/liggghtsFacets.hpp"
 #include "demCoupling/liggghts/liggghtsMeshTurns.hpp"
+#include "demCoupling/liggghts/liggghtsPairs.hpp"
 
 #include <mpi.h>
 
@@ -21,7 +22,7 @@ class ContactTally : public LAMMPS_NS::Fix
 {
 public:
     ContactTally(LAMMPS_NS::LAMMPS* lammps, int count, char** arguments, LiggghtsModel& model, const DemSetup& setup)
-        : LAMMPS_NS::Fix(lammps, count, arguments), model_(model), damping_(model, setup), meshTurns_(model), facets_(model), wallGroups_(setup.wallGroups)
+        : LAMMPS_NS::Fix(lammps, count, arguments), model_(model), damping_(model, setup), meshTurns_(model), facets_(model), pairs_(model), wallGroups_(setup.wallGroups)
     {
         nevery = 1;
     }
@@ -58,6 +59,7 @@ public:
     const std::vector<Vec3>& peakOnWalls() const { return wallPeak_; }
     const std::vector<Vec3>& peakOnGroups() const { return groupPeak_; }
     bool hasContact() const { return hasContact_; }
+    PairTally& pairs() { return pairs_; }
 
     /// Loads of the walls at this instant, moments about the origin of space: part of the state.
     std::vector<Load>& wallsNow() { return wallNow_; }
@@ -81,6 +83,7 @@ private:
     SphereDamping damping_;
     MeshTurns meshTurns_;
     FacetChoice facets_;
+    PairTally pairs_;
     std::vector<Load> bodyNow_, bodySum_, bodyMean_, wallNow_, wallSum_, wallMean_;
     std::vector<std::vector<int>> wallGroups_;
     std::vector<Vec3> bodyPeak_, wallPeak_, groupPeak_;
