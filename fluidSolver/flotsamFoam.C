@@ -63,10 +63,11 @@ std::string gapAdvice(const CoupledStep& step)
 }
 
 /// One step of at most dt, repeated with smaller steps when it fails. Returns the step used and its result.
-StepResult advance(CoupledStep& step, const TimeControls& time, double& dt, RunOutput& output)
+StepResult advance(CoupledStep& step, const TimeControls& time, const WriteTimes& writeTimes, double& dt, RunOutput& output)
 {
     for (int retry = 0;; ++retry)
     {
+        step.tallyContacts(writeTimes.mayWriteAfter(dt));
         const StepResult result = step.step(dt);
         if (result.isAccepted) return result;
         output.countRejected(result.failure, dt);
@@ -299,7 +300,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
         double used = writeTimes.setStep(wanted);
         const double before = used;
         if (used < mostlyCut*wanted) limit = writeTimes.reason();
-        const StepResult result = advance(step, time, used, output);
+        const StepResult result = advance(step, time, writeTimes, used, output);
         if (used < before) limit = "retry";
         const bool isCut = used == before && used < 0.999*wanted;
         dt = isCut ? std::min(wanted, longestAfterWrite*used) : used;

@@ -93,6 +93,7 @@ void BodyCoupling::runEngine(double duration, const std::vector<Load>& loads)
     {
         engine_->setShares(answer_.known());
         engine_->setLoads(loads);
+        engine_->tallyPairs(tallies_);
         engine_->advance(duration);
         result_ = engine_->states();
         newContact_ = engine_->meanContactLoads();
@@ -103,7 +104,9 @@ void BodyCoupling::runEngine(double duration, const std::vector<Load>& loads)
         touch_.take(engine_->contacts(), setup_);
         touch_.restraints = engine_->restraintLoads();
         if (!engine_->hasContact()) newContact_.assign(newContact_.size(), Load()); // round-off of a free flight
+        meanContacts_ = engine_->hasContact() ? engine_->meanContacts() : std::vector<MeanContact>();
     });
+    hasMeanContacts_ = tallies_;
     shareResults();
 }
 
@@ -310,6 +313,7 @@ void BodyCoupling::reject()
     smoothing_ = difference(guessAtStart_, contact_);
     answer_.setShares(sharesAtStart_);
     touch_ = touchAtStart_;
+    hasMeanContacts_ = false;
 }
 
 CouplingRecord BodyCoupling::record() const
@@ -355,6 +359,7 @@ void BodyCoupling::restore(const std::vector<double>& data)
         newContact_.assign(newContact_.size(), Load());
     });
     shareResults();
+    hasMeanContacts_ = false;
     touch_.wallLoads = stored.wallLoads;
     touch_.counts = stored.counts;
     touch_.wallCounts = stored.wallCounts;

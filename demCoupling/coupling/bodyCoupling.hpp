@@ -75,6 +75,10 @@ public:
     const std::vector<Vec3>& groupPeaks() const { return touch_.groupPeaks; }    ///< of DemSetup::wallGroups
     const std::vector<int>& contactCounts() const { return touch_.counts; }
     const std::vector<int>& wallContactCounts() const { return touch_.wallCounts; } ///< bodies that touch each wall
+    /// Whether meanContacts() of the coming steps will be asked for.
+    void tallyContacts(bool isOn) { tallies_ = isOn; }
+    /// Of the last step; null: it was not tallied. Rank 0 alone has them. Of a body taken out at its end those of the step are left.
+    const std::vector<MeanContact>* meanContacts() const { return hasMeanContacts_ ? &meanContacts_ : nullptr; }
     const std::vector<RestraintLoad>& restraintLoads() const { return touch_.restraints; } ///< of the last DEM run; part of the contact loads
     bool isHeld(int body) const { return isHeld_[body]; }
     /// Of the step's mean fluid load and weight, lastLoads() the rest; share: Fluid::newLoadShare(). In its first step a body that was let go has only the new.
@@ -130,6 +134,8 @@ private:
     std::vector<LoadShare> sharesAtStart_;
     NumberWriter sent_;                         // results of the engine, to all ranks
     ContactSummary touch_, touchAtStart_;       // of the engine's last run
+    std::vector<MeanContact> meanContacts_;     // rank 0
+    bool tallies_ = false, hasMeanContacts_ = true; // before the first step there are none
     std::vector<char> isHeld_, isJustReleased_;
     std::vector<Presence> presence_;
     ContactIteration iteration_;

@@ -42,6 +42,8 @@ public:
 
     /// Advances by dt, or leaves everything as it was (isAccepted false).
     StepResult step(double dt);
+    /// Whether BodyCoupling::meanContacts() of the coming steps will be asked for.
+    void tallyContacts(bool isOn) { if (coupling_) coupling_->tallyContacts(isOn); }
 
     Fluid& fluid() { return fluid_; }
     const Fluid& fluid() const { return fluid_; }

@@ -67,7 +67,7 @@ RunOutput::RunOutput(const Foam::Time& runTime, const SimplexMesh& mesh, const H
     const PhaseTimers& timers)
 :   runTime_(runTime), mesh_(mesh), halo_(halo), fluid_(fluid), bodies_(bodies), timers_(timers), members_(makeMembers(bodies)),
     descriptions_(describe(bodies)),
-    files_(runTime, mesh, halo), log_(timers, runTime.value(), runTime.endTime().value()), forces_(structureNames(bodies)), restraints_(bodies),
+    files_(runTime, mesh, halo), log_(timers, runTime.value(), runTime.endTime().value()), forces_(structureNames(bodies)), restraints_(bodies), contacts_(bodies),
     nStructures_(int(bodies.structures.size())), firstStart_(runTime.value()), thinnestBody_(thinnestBody(bodies))
 {}
 
@@ -93,18 +93,22 @@ void RunOutput::begin(const CoupledStep& step)
     {
         const Foam::fileName folder = runTime_.globalPath()/"postProcessing"/"flotsam";
         Foam::mkDir(folder);
-        history_ = std::make_unique<BodyHistory>(folder/"bodies.h5", members_, runTime_.value(), restraints_.names());
+        history_ = std::make_unique<BodyHistory>(folder/"bodies.h5", members_, runTime_.value(), restraints_.names(), contacts_.walls());
         warnHole(history_->lastTime());
         history_->append(runTime_.value(), step.records(), scalars(0));
         writeScene(step);
     }
 }
 
-/// What ParaView shows of bodies, structures and restraints.
+/// What ParaView shows of bodies, structures, restraints and contacts.
 void RunOutput::writeScene(const CoupledStep& step)
 {
     if (!members_.empty()) history_->writeSurface(runTime_.value(), step.records());
-    if (step.coupling()) history_->writeLines(runTime_.value(), restraints_.lines(step.records(), step.coupling()->restraintLoads()));
+    if (!step.coupling()) return;
+    const std::vector<BodyRecord> records = step.records();
+    history_->writeLines(runTime_.value(), restraints_.lines(records, step.coupling()->restraintLoads()));
+    if (const std::vector<MeanContact>* contacts = step.coupling()->meanContacts())
+        history_->writeContacts(runTime_.value(), contacts_.records(*contacts, records), records.back().pose.position);
 }
 
 double RunOutput::massError() const { return mass_.relativeError(); }

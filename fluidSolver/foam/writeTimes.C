@@ -16,6 +16,7 @@ struct ClockAccess : Foam::Time
 {
     static bool isAdjusted(const Foam::Time& t) { return t.*&ClockAccess::writeControl_ == wcAdjustableRunTime; }
     static bool isCounted(const Foam::Time& t) { return isAdjusted(t) || t.*&ClockAccess::writeControl_ == wcRunTime; }
+    static bool isOfSteps(const Foam::Time& t) { return t.*&ClockAccess::writeControl_ == wcTimeStep; }
     static double interval(const Foam::Time& t) { return t.*&ClockAccess::writeInterval_; }
     /// Number of the last write time of this run: the clock is at one after a step when the number has grown.
     static Foam::label& written(Foam::Time& t) { return t.*&ClockAccess::writeTimeIndex_; }
@@ -66,6 +67,15 @@ double WriteTimes::setStep(double wanted)
     return clock_.deltaTValue();
 }
 
+bool WriteTimes::isDueAfter(double step) const { return count(clock_, first_, time_ + step, step) > count(clock_, first_, time_, lastStep_); }
+
+bool WriteTimes::mayWriteAfter(double step) const
+{
+    if (ClockAccess::isCounted(clock_)) return isDueAfter(step);
+    const Foam::label interval = Foam::label(ClockAccess::interval(clock_));
+    return !ClockAccess::isOfSteps(clock_) || (interval != 0 && (clock_.timeIndex() + 1) % interval == 0);
+}
+
 bool WriteTimes::comeBy(double end) const
 {
     constexpr double roundOff = 1e-9;   // of a step: a write time at the end is one
@@ -77,8 +87,7 @@ void WriteTimes::advance(double step)
     clock_.setDeltaT(step, false);
     if (ClockAccess::isCounted(clock_))
     {
-        const bool isDue = count(clock_, first_, time_ + step, step) > count(clock_, first_, time_, lastStep_);
-        ClockAccess::written(clock_) = isDue ? -1 : Foam::labelMax;
+        ClockAccess::written(clock_) = isDueAfter(step) ? -1 : Foam::labelMax;
         ++clock_;
         ClockAccess::written(clock_) = 0; // a changed interval multiplies it
     }

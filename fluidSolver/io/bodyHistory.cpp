@@ -104,6 +104,7 @@ struct BodyHistory::Implementation
     std::vector<HistoryMember> members;
     SurfaceSeries surface;
     LineSeries lines;
+    ContactSeries contacts;
 
     std::size_t rowsInFile = 0;
     double lastTime = -std::numeric_limits<double>::infinity();
@@ -113,7 +114,8 @@ struct BodyHistory::Implementation
     std::chrono::steady_clock::time_point lastFlush = std::chrono::steady_clock::now();
     double flushSeconds = 0;                        ///< that the last flush took
 
-    Implementation(const std::string& file, const std::vector<HistoryMember>& members, double startTime, const std::vector<std::string>& lines);
+    Implementation(const std::string& file, const std::vector<HistoryMember>& members, double startTime, const std::vector<std::string>& lines,
+        const std::vector<std::string>& walls);
     void create();
     bool continueUndamaged(double startTime);
     bool continueFrom(double startTime);
@@ -123,8 +125,9 @@ struct BodyHistory::Implementation
 };
 
 BodyHistory::Implementation::Implementation(
-    const std::string& fileName, const std::vector<HistoryMember>& memberList, double startTime, const std::vector<std::string>& lineNames)
-    : file(fileName), members(memberList), surface(fileName, memberList), lines(fileName, lineNames), records(memberList.size())
+    const std::string& fileName, const std::vector<HistoryMember>& memberList, double startTime, const std::vector<std::string>& lineNames,
+    const std::vector<std::string>& walls)
+    : file(fileName), members(memberList), surface(fileName, memberList), lines(fileName, lineNames), contacts(fileName, walls), records(memberList.size())
 {
     checkNames(file, members);
     if (::access(file.c_str(), F_OK) != 0 || !continueUndamaged(startTime)) create();
@@ -223,6 +226,7 @@ bool BodyHistory::Implementation::continueFrom(double startTime)
     for (const auto& table : tables) out.setRows(table, kept);
     surface.continueFrom(out, limit);
     lines.continueFrom(out, limit);
+    contacts.continueFrom(out, limit);
     out.close();
     rowsInFile = kept;
     if (kept > 0) lastTime = oldTimes[kept - 1];
@@ -279,8 +283,9 @@ void BodyHistory::Implementation::flush()
     flushSeconds = std::chrono::duration<double>(lastFlush - start).count();
 }
 
-BodyHistory::BodyHistory(const std::string& file, const std::vector<HistoryMember>& members, double startTime, const std::vector<std::string>& lines)
-    : impl_(new Implementation(file, members, startTime, lines))
+BodyHistory::BodyHistory(const std::string& file, const std::vector<HistoryMember>& members, double startTime, const std::vector<std::string>& lines,
+    const std::vector<std::string>& walls)
+    : impl_(new Implementation(file, members, startTime, lines, walls))
 {
 }
 
@@ -353,6 +358,16 @@ void BodyHistory::writeLines(double time, const std::vector<LineRecord>& lines)
         out.close();
     }
     impl_->lines.writeXdmf();
+}
+
+void BodyHistory::writeContacts(double time, const std::vector<ContactRecord>& contacts, const Vec3& aside)
+{
+    {
+        Hdf5File out(impl_->file, Hdf5File::Mode::ReadWrite);
+        impl_->contacts.append(out, time, contacts, aside);
+        out.close();
+    }
+    impl_->contacts.writeXdmf();
 }
 
 } // namespace flotsam

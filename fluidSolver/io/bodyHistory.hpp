@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// Time series of bodies and structure members in HDF5 (bodies.h5), and their surfaces and the lines between them for ParaView (bodies.xdmf, restraints.xdmf).
+/// Time series of bodies and structure members in HDF5 (bodies.h5), and their surfaces and the lines between them for ParaView (bodies.xdmf, restraints.xdmf, contacts.xdmf).
 #pragma once
 
 #include "geometry/solid.hpp"
+#include "io/contactSeries.hpp"
 #include "io/lineSeries.hpp"
 
 #include <memory>
@@ -45,8 +46,9 @@ class BodyHistory
 public:
     /// Creates `file`, or continues it when it holds records earlier than `startTime` (restart): later ones are cut off.
     /// Throws when a file to be continued has other members, or is damaged.
-    /// lines: names of restraints.
-    BodyHistory(const std::string& file, const std::vector<HistoryMember>& members, double startTime, const std::vector<std::string>& lines = {});
+    /// lines: names of restraints; walls: of what bodies touch that is no member.
+    BodyHistory(const std::string& file, const std::vector<HistoryMember>& members, double startTime, const std::vector<std::string>& lines = {},
+        const std::vector<std::string>& walls = {});
     ~BodyHistory();
 
     double lastTime() const; ///< of the last record; -infinity: there is none
@@ -64,6 +66,8 @@ public:
     void writeSurface(double time, const std::vector<BodyRecord>& records);
     /// The same of the lines, to /restraints and restraints.xdmf.
     void writeLines(double time, const std::vector<LineRecord>& lines);
+    /// The same of contacts, to /contacts and contacts.xdmf; see ContactSeries::append().
+    void writeContacts(double time, const std::vector<ContactRecord>& contacts, const Vec3& aside);
 
 private:
     struct Implementation;

@@ -45,6 +45,9 @@ class History:
             self.restraints = {name: content["restraints"][name][...] for name in content.get("restraints", {})}
             if self.restraints:
                 self.restraints["names"] = content["restraints"].attrs["names"].decode().split()
+            self.contacts = {name: content["contacts"][name][...] for name in content.get("contacts", {})}
+            if self.contacts:
+                self.contacts["walls"] = content["contacts"].attrs["walls"].decode().split()
         self.time = self.run["time"]
 
     def __getitem__(self, name):

@@ -1,0 +1,77 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# /contacts of bodies.h5: forces of every pair at the write times, which add up to the contactForce of bodies and structures; contacts.xdmf. Bars that jam at pipes (3D), and bars
+# on the bed of a tank, one on a spring, pushed by a structure that moves (2D): on one process and on two, after a stop, with write times that steps are cut to meet.
+. "$(dirname "$0")/support.sh"
+mkdir -p "$work" && cd "$work" || exit
+rm -rf ./*
+
+# stopped CASE TIME END: the case in two runs
+stopped() {
+    setEntry "$1/system/controlDict" endTime "$2"
+    (cd "$1" && solve 1) || exit
+    setEntry "$1/system/controlDict" endTime "$3"
+    (cd "$1" && solve 1) || exit
+}
+
+makeJam jam
+setEntry jam/system/controlDict endTime 0.05
+cp -r jam jamTwo
+cp -r jam jamParts
+(cd jam && solve 1) || exit
+(cd jamTwo && quietly decomposePar && solve 2) || exit
+stopped jamParts 0.03 0.05
+
+makeFloatingBar tank
+cat > tank/constant/bodies << 'END'
+FoamFile { version 2.0; format ascii; class dictionary; object bodies; }
+structures
+{
+    sill   { shape { type box; size (0.04 0.01 0.05); } position (0.034 -0.0955 0.025); }
+    pusher { shape { type box; size (0.02 0.02 0.05); } position (-0.0205 -0.088 0.025); motion { type linear; velocity (0.05 0 0); } }
+}
+bodies
+{
+    lower { shape { type box; size (0.02 0.02 0.05); } density 2500; position (0 -0.09 0.025); }
+    upper { shape { type box; size (0.02 0.02 0.05); } density 2000; position (0.012 -0.07 0.025); }
+}
+restraints
+{
+    rope { type tether; body lower; refAttachmentPt (0 -0.09 0); otherBody upper; otherRefAttachmentPt (0.012 -0.07 0); stiffness 200; damping 0.5; length 0.02; }
+    line { type linearSpring; body upper; refAttachmentPt (0.012 -0.06 0); anchor (0.012 0.02 0); stiffness 5; damping 0.1; restLength 0.06; }
+}
+END
+fixedSteps tank 0.002 0.04 5
+cp -r tank tankTwo
+cp -r tank tankParts
+(cd tank && solve 1) || exit
+(cd tankTwo && quietly decomposePar && solve 2) || exit
+stopped tankParts 0.02 0.04
+
+python "$here/contacts.py" body,structure jam jamTwo jamParts || exit
+python "$here/contacts.py" body,structure,patch tank tankTwo tankParts || exit
+python - << 'PY'
+import sys
+
+import numpy as np
+
+import checks
+
+import flotsam
+
+# a stop changes nothing
+for case in ("jam", "tank"):
+    one, parts = flotsam.history(case).contacts, flotsam.history(case + "Parts").contacts
+    for name in ("time", "begin", "first", "second", "spheres"):
+        checks.check(f"{case}: {name} after a stop", float(np.array_equal(one[name], parts[name])), 1, 0)
+    scale = np.abs(one["force"]).max()
+    checks.check(f"{case}: forces after a stop, over the largest", np.abs(one["force"] - parts["force"]).max() / scale, 0, 1e-9)
+h = flotsam.history("tank")
+checks.check("the pusher pushes [N]", float((h.contacts["second"] == h["structures/pusher"].number).any()), 1, 0)
+checks.check("the bed is patch", float(h.contacts["walls"] == ["walls"]), 1, 0)
+
+# what the spring and the rope do is no contact
+pull = flotsam.stepTable("tank", "restraints", "line.dat")[-1, 1:4]
+checks.check("the spring pulls [N]", float(np.abs(pull).max() > 0.01), 1, 0)
+sys.exit(checks.count())
+PY
