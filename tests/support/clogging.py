@@ -10,6 +10,7 @@ import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "tutorials", "common"))
 import clogging  # noqa: E402
+import contactNetwork  # noqa: E402
 import ensemble  # noqa: E402
 import flotsam  # noqa: E402
 
@@ -73,6 +74,33 @@ class Clogging(unittest.TestCase):
         with self.assertRaisesRegex(flotsam.CaseError, "no structure dam; there are: rack"):
             clogging.chosen(h, ["dam"])
         self.assertEqual(clogging.groupsOf(["rack.0", "rack.1", "v1.5", "pier"]), {"rack": ["rack.0", "rack.1"], "v1": ["v1.5"], "pier": ["pier"]})
+
+    def test_contacts_tell_what_is_held_by_the_structures(self):
+        time = np.linspace(0, 4, 161)
+        still = lambda t: min(SPEED * t, 1.6)  # noqa: E731
+        names = ["atRack", "behind", "onBank", "inRow", "passes"]
+        h = History(time, {name: (lambda t: SPEED * t) if name == "passes" else still for name in names})
+        number = {name: 2 + k for k, name in enumerate(names)} | {"rack": 0, "other": 1, "bed": 7}
+        for name in names:
+            h["bodies/" + name].number = number[name]
+        # rack.1 is not meant; bodies on the bed touch each other through nothing
+        times = [[("atRack", "rack"), ("behind", "rack")], [("atRack", "rack"), ("atRack", "behind"), ("onBank", "bed"), ("behind", "bed"), ("inRow", "other"), ("inRow", "behind")]]
+        pairs = [(number[a], number[b]) for contacts in times for a, b in contacts]
+        n = len(pairs)
+        h.contacts = {"time": np.array([1.0, 3.9]), "begin": np.array([0, 2, n]), "first": np.array([a for a, _ in pairs]), "second": np.array([b for _, b in pairs]),
+                      "force": np.outer(np.arange(1, n + 1), [0, 0, 1.0]), "point": np.zeros((n, 3)), "line": np.zeros((3 * n, 3))}
+        fate = clogging.fates(h, clogging.Zone(1.9, 2.0), DOWNSTREAM, ["rack.0"])
+        np.testing.assert_array_equal(sum(state.astype(int) for state in fate), 1)
+        np.testing.assert_array_equal(fate.held[:, -1], [True, True, False, True, False])
+        np.testing.assert_array_equal(fate.elsewhere[:, -1], [False, False, True, False, False])
+        self.assertEqual(clogging.retention(fate)[-1], 1)
+        keys = contactNetwork.keys(h, ["rack.0"], fate.held[:, -1])
+        self.assertEqual([tuple(key) for key in keys], [("atRack", 2, 3.0), ("behind", 1, 0.0)])
+        np.testing.assert_array_equal(clogging.fates(h, clogging.Zone(1.9, 2.0), DOWNSTREAM, ["rack.0", "rack.1"]).held[:, -1], fate.held[:, -1])
+        h.contacts["second"][n - 1] = number["bed"]     # in a row no more
+        np.testing.assert_array_equal(clogging.fates(h, clogging.Zone(1.9, 2.0), DOWNSTREAM, ["rack.0"]).elsewhere[:, -1], [False, False, True, True, False])
+        h.restraints = {"names": ["line"]}  # nobody knows what hangs on it
+        np.testing.assert_array_equal(clogging.fates(h, clogging.Zone(1.9, 2.0), DOWNSTREAM, ["rack.0"]).held[:, -1], [True] * 4 + [False])
 
     def test_confidence(self):
         np.testing.assert_allclose(clogging.confidence(8, 10), (0.49016, 0.94332), atol=2e-5)    # Wilson 1927

@@ -30,7 +30,7 @@ class Run
 public:
     explicit Run(const std::string& control, const std::vector<Record>& past = {}, const std::string& stopAt = "endTime")
     :   clock_(parse("startFrom startTime; startTime " + Foam::name(past.empty() ? begin : past.back().time) + "; stopAt " + stopAt
-            + "; endTime 10; deltaT 1; writeControl " + control + "; writeInterval " + Foam::name(interval) + "; timePrecision 17;"),
+            + "; endTime 10; deltaT 1; writeInterval " + Foam::name(interval) + "; writeControl " + control + "; timePrecision 17;"),
             ".", ".", "system", "constant", false, false),
         records_(past)
     {
@@ -42,18 +42,22 @@ public:
     {
         while (records_.size() < nSteps && clock_.value() < clock_.endTime().value() - 0.5*clock_.deltaTValue()) // Time::run() without function objects
         {
-            times_->advance(times_->setStep(0.5*(shortest + longest) + 0.5*(longest - shortest)*std::sin(double(records_.size()))));
+            const double step = times_->setStep(0.5*(shortest + longest) + 0.5*(longest - shortest)*std::sin(double(records_.size())));
+            mayWrite_.push_back(times_->mayWriteAfter(step));
+            times_->advance(step);
             records_.push_back({clock_.value(), clock_.deltaTValue(), clock_.writeTime()});
         }
         return records_;
     }
 
     const WriteTimes& times() const { return *times_; }
+    const std::vector<bool>& mayWrite() const { return mayWrite_; }  ///< per step of this run, as was known before it
 
 private:
     Foam::Time clock_;
     std::unique_ptr<WriteTimes> times_;
     std::vector<Record> records_;
+    std::vector<bool> mayWrite_;
 };
 
 }
@@ -113,6 +117,22 @@ TEST_CASE("whether a write time comes by the end of the run is known before")
         CHECK(!run.times().comeBy(begin + 1.9*interval));
     }
     CHECK(Run("cpuTime").times().comeBy(begin + 0.5*interval));     // nobody knows
+}
+
+TEST_CASE("whether a step ends at a write time is known before it")
+{
+    for (const char* control : {"adjustableRunTime", "runTime", "timeStep; writeInterval 3"})
+    {
+        CAPTURE(control);
+        Run run(control);
+        const std::vector<Record> records = run.to(60);
+        for (std::size_t n = 0; n < records.size(); ++n) CHECK(run.mayWrite()[n] == records[n].isWriteTime);
+        CHECK(std::count_if(records.begin(), records.end(), [](const Record& r) { return r.isWriteTime; }) > 15);
+    }
+    const Run run("adjustableRunTime");
+    CHECK(run.times().mayWriteAfter(interval));
+    CHECK(!run.times().mayWriteAfter(0.4*interval));    // a step that is repeated with a shorter one
+    CHECK(Run("cpuTime").times().mayWriteAfter(1e-6));  // nobody knows
 }
 
 TEST_CASE("a run that ends at the next write time ends at one")

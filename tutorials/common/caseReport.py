@@ -6,6 +6,8 @@ import os
 import sys
 
 import clogging
+import contactNetwork
+import contactScene
 import driftwood
 import flotsam
 import flotsamScene
@@ -46,8 +48,11 @@ def evaluate(h, series, options):
     if h.bodies:
         figures["bodies"] = {"number": len(h.bodies), "volume": sum(h["bodies/" + name].volume for name in h.bodies)}
     if h.bodies and zone:
-        fate = clogging.fates(h, zone, direction)
+        fate = clogging.fates(h, zone, direction, structures)
         figures["bodies"].update(_ofFate(h, fate, zone))
+        figures["bodies"]["areContactsKnown"] = contactNetwork.isKnown(h, structures)
+        if figures["bodies"]["areContactsKnown"]:
+            figures["bodies"]["keys"] = [one._asdict() for one in contactNetwork.keys(h, structures, fate.held[:, -1])]
         figures["bodies"]["longest"] = {name: clogging.meanLongest(h, getattr(fate, name)[:, -1]) for name in ("held", "passed")}
     return figures, fate
 
@@ -88,6 +93,7 @@ def page(case, figures, pictures):
     if bodies and "held" in bodies:
         rows += [("still to come in; on their way", f"{bodies['awaited']}; {bodies['coming']}", ""), ("held at the end; most at a time", f"{bodies['held']}; {bodies['mostHeld']}", ""),
                  ("passed; left the mesh elsewhere", f"{bodies['passed']}; {bodies['left']}", ""),
+                 *([("at rest elsewhere", bodies["elsewhere"], "")] if bodies["areContactsKnown"] else []),
                  ("first held", bodies["firstHeld"] if bodies["firstHeld"] is not None else "never", "s")]
     if bodies and "longest" in bodies and all(bodies["longest"].values()):
         rows.append(("mean longest extent of those held; passed", "{held:.4g}; {passed:.4g}".format(**bodies["longest"]), "m"))
@@ -99,11 +105,22 @@ def page(case, figures, pictures):
     lines = [f"# {os.path.basename(os.path.abspath(case))}", "", "| | | |", "|---|---|---|"] + [f"| {what} | {_shown(value)} | {unit} |" for what, value, unit in rows]
     if figures["forces"]:
         lines += _forceTable(figures)
+    if bodies and bodies.get("keys"):
+        lines += _keyTable(bodies["keys"])
     if bodies and "held" in bodies:
-        lines += ["", f"Held: at rest (less than {clogging.SLOW:g} of the speed with which bodies come, over {clogging.SPAN:g} s) with the centre before {bodies['end']:.4g} m along the stream; "
+        touch = " and in contact with the structures, directly or through others (else: at rest elsewhere)" if bodies["areContactsKnown"] else ""
+        lines += ["", f"Held: at rest (less than {clogging.SLOW:g} of the speed with which bodies come, over {clogging.SPAN:g} s) with the centre before {bodies['end']:.4g} m along the stream{touch}; "
                   "passed: beyond. In brackets: what chance leaves open in 95 of 100 cases, were bodies independent."]
     lines += [line for name in pictures for line in ("", f"![{name}]({name})")]
     return "\n".join(lines) + "\n"
+
+
+def _keyTable(keys, most=8):
+    """Of the bodies on which others hang."""
+    rest = f" (the first {most} of {len(keys)})" if len(keys) > most else ""
+    lines = ["", f"Key bodies at the last write time{rest}: how many others contacts would connect with the structures no longer were it not there, and its own force on these.", "",
+             "| body | holds | force on structures [N] |", "|---|---|---|"]
+    return lines + [f"| {one['name']} | {one['holds']} | {one['force']:.4g} |" for one in keys[:most]]
 
 
 def _forceTable(figures):
@@ -175,7 +192,15 @@ def draw(case, h, wanted, folder):
             flotsamScene.renderScene(case, time, file, history=h)
         else:
             flotsamScene.renderField2d(case, time, file, normal=across, history=h)
+    name = f"contacts_{h.contacts['time'][-1]:g}s.png" if len(h.contacts.get("time", [])) else None
+    if name and _drawContacts(h, across, os.path.join(folder, name)):
+        names.append(name)
     return names
+
+
+def _drawContacts(h, across, file):
+    last = h.contacts["time"][-1]
+    return contactScene.renderContacts(last, file, h) if across is None else contactScene.renderContacts2d(last, file, h, across)
 
 
 def main():

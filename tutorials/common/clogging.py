@@ -8,6 +8,7 @@ import os
 from collections import namedtuple
 
 import bodyHistory
+import contactNetwork
 import driftwood
 import numpy as np
 from bodyHistory import CaseError
@@ -16,7 +17,7 @@ SPAN = 0.5      # mean speeds are over so many seconds;
 SLOW = 0.25     # a body is at rest where that is less than this share of the speed with which bodies come
 
 Zone = namedtuple("Zone", "begin end")                      # of the structures along the stream [m]
-Fate = namedtuple("Fate", "awaited coming held passed left")  # bodies x records: exactly one is true. left: taken out, but not downstream
+Fate = namedtuple("Fate", "awaited coming held passed left elsewhere")  # bodies x records: exactly one is true. left: taken out, but not downstream
 
 
 def groupsOf(names):
@@ -61,10 +62,11 @@ def zoneOf(h, structures, direction):
     return Zone(s.min(), s.max())
 
 
-def fates(h, zone, direction):
-    """What has become of each body in each record. Held: at rest, and not beyond the structures' end; passed: the centre is beyond it."""
+def fates(h, zone, direction, structures=()):
+    """What has become of each body in each record. Held: at rest, and not beyond the structures' end; passed: the centre is beyond it. Where the file has contacts, what is at rest
+    and not connected with one of the structures, by way of other bodies or none, rests elsewhere: on a bank, on the bed, or it waits to be let go."""
     if not h.bodies:
-        return Fate(*np.zeros((5, 0, len(h.time)), dtype=bool))
+        return Fate(*np.zeros((6, 0, len(h.time)), dtype=bool))
     s = driftwood.positions(h) @ direction
     awaited = np.array([h["bodies/" + name].awaited > 0.5 for name in h.bodies])
     left = np.array([h["bodies/" + name].left > 0.5 for name in h.bodies])
@@ -73,7 +75,8 @@ def fates(h, zone, direction):
     approach = approachSpeed(speed, awaited | left)
     isBeyond = ~awaited & (s > zone.end)
     isRest = ~awaited & ~left & ~isBeyond & (speed < SLOW * approach)
-    return Fate(awaited, ~awaited & ~left & ~isBeyond & ~isRest, isRest, isBeyond, left & ~isBeyond)
+    isHeld = isRest & contactNetwork.isConnected(h, structures, SPAN) if contactNetwork.isKnown(h, structures) else isRest
+    return Fate(awaited, ~awaited & ~left & ~isBeyond & ~isRest, isHeld, isBeyond, left & ~isBeyond, isRest & ~isHeld)
 
 
 def _isNew(h, awaited, span):
