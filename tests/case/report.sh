@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# flotsamReport after short runs: bars at pipes (3D), a bar afloat (2D): page, figures, plots and pictures; what is wrong with the command line is said.
+# flotsamReport after short runs: bars at pipes (3D), a bar afloat (2D), bars on a rack and a bank (2D): page, figures, plots and pictures; what rests on the bank is not held by the rack; what is
+# wrong with the command line is said.
 . "$(dirname "$0")/support.sh"
 mkdir -p "$work" && cd "$work" || exit
 rm -rf ./*
@@ -10,11 +11,33 @@ makeJam jam
 fixedSteps jam 0.005 0.05 5
 makeFloatingBar bar
 fixedSteps bar 0.01 0.02 2
-for name in jam bar; do
+makeFloatingBar bank
+cat > bank/constant/bodies << 'END'
+FoamFile { version 2.0; format ascii; class dictionary; object bodies; }
+structures
+{
+    rack { shape { type box; size (0.06 0.02 0.05); } position (0.05 -0.09 0.025); }
+    bank { shape { type box; size (0.06 0.02 0.05); } position (-0.05 -0.09 0.025); }
+}
+bodies
+{
+    bar
+    {
+        shape { type box; size (0.02 0.02 0.05); } density 2500; velocity (0 -0.1 0);
+        // on the rack; on that one; on the bank; on the bed
+        poses ( { position (0.05 -0.068 0.025); } { position (0.054 -0.046 0.025); } { position (-0.05 -0.068 0.025); } { position (0 -0.088 0.025); } );
+    }
+}
+END
+fixedSteps bank 0.002 0.2 5
+for name in jam bar bank; do
     (cd $name && solve 1) || exit
     (cd $name && quietly "$report") || exit
 done
 (cd jam && quietly "$report" --start 0.02 --at -0.1 --direction=x --structures pipes --no-pictures) || exit
+cp -r bank unknown
+python -c 'import h5py; del h5py.File("unknown/postProcessing/flotsam/bodies.h5", "r+")["contacts"]' || exit
+for name in bank unknown; do (cd $name && quietly "$report" --direction=x --structures rack) || exit; done
 for mistake in "nowhere" "jam --start 99" "jam --structures rack"; do
     # shellcheck disable=SC2086
     "$report" $mistake > log.mistake 2>&1 && fail "no error of: flotsamReport $mistake"
@@ -41,12 +64,22 @@ for what, quantity in (("water", "fluidForce"), ("bodies", "contactForce")):
 s = np.array([h["bodies/" + name].position[-1, 0] for name in h.bodies])
 checks.check("bars beyond -0.1 m", figures["bodies"]["passed"], (s > -0.1).sum(), 0)
 checks.check("bars in all", sum(figures["bodies"][fate] for fate in ("awaited", "coming", "held", "passed", "left")), 3, 0)
-for name, pictures in (("jam", ["series.png", "scene_0.05s.png"]), ("bar", ["series.png", "scene_0.02s.png"])):
+for name, held, elsewhere in (("bank", 2, 2), ("unknown", 4, 0)):
+    with open(f"{name}/postProcessing/flotsam/report/report.json", encoding="utf-8") as file:
+        bodies = json.load(file)["bodies"]
+    checks.check(f"{name}: bars held by the rack", bodies["held"], held, 0)
+    checks.check(f"{name}: bars at rest elsewhere", bodies["elsewhere"], elsewhere, 0)
+    checks.check(f"{name}: share held of those that came", bodies["retention"], 1, 0)
+    if name == "bank":
+        key = bodies["keys"][0]
+        checks.check("the bar on the rack holds the one on it", float(key["name"] == "bar.0") * key["holds"], 1, 0)
+        checks.check("its force on the rack: weights less buoyancy [N]", key["force"], 2 * 1500 * 0.02**2 * 0.05 * 9.81, 0.05)
+for name, pictures in (("jam", ["series.png", "scene_0.05s.png"]), ("bar", ["series.png", "scene_0.02s.png"]), ("bank", ["series.png", "scene_0.2s.png", "contacts_0.2s.png"])):
     folder = f"{name}/postProcessing/flotsam/report"
     text = open(f"{folder}/report.md", encoding="utf-8").read()
     for picture in pictures:
         checks.check(f"{name}: {picture} [kB at least 5]", float(os.path.getsize(f"{folder}/{picture}") > 5000), 1, 0)
-        if name == "bar":   # the page of jam is that of the second call
+        if name != "jam":   # the page of jam is that of the second call
             checks.check(f"{name}: {picture} on its page", float(f"({picture})" in text), 1, 0)
 sys.exit(checks.count())
 PY

@@ -133,7 +133,7 @@ def renderContacts2d(time, file, history, normal=2, size=(10, 5)):
         points = vtk_to_numpy(data.GetPoints().GetData())[:, plane]
         triangles = vtk_to_numpy(data.GetPolys().GetConnectivityArray()).reshape(-1, 3)
         colour = flotsamScene.COLOURS["structure" if isStructure else "body"]
-        axes.add_collection(PolyCollection(points[triangles], facecolors=[colour], edgecolors=[colour], linewidths=0.3, alpha=0.3))
+        axes.add_collection(PolyCollection(points[triangles], facecolors=[colour], linewidths=0, alpha=0.3))
     force = np.linalg.norm(contacts.force, axis=1)
     colours = ListedColormap(matplotlib.colormaps[COLOUR_MAP](np.linspace(FAINTEST, 1, 256)))
     lines = axes.add_collection(LineCollection(contacts.line[:, :, plane], array=force, cmap=colours, linewidths=1 + 4 * np.sqrt(force / force.max()), capstyle="round"))
