@@ -4,6 +4,7 @@
 /// looking through the bins would cost the square of their number.
 #include "demCoupling/liggghts/liggghtsHistory.hpp"
 #include "demCoupling/liggghts/liggghtsRestraints.hpp"
+#include "demCoupling/liggghts/liggghtsTally.hpp"
 
 #include "atom.h"
 #include "group.h"
@@ -90,6 +91,7 @@ void setGone(LiggghtsModel& model, const std::vector<char>& isGone)
         std::copy_n(bodies.hdTorque[b], 3, bodies.torque[b]);
     }
     markGone(model, isGone);
+    model.tally->pairs().leaveWalls(isGone, model.tally->wallsNow());
     placeSpheres(model);
     rebuildNeighbours(model); // without the pairs of those that are gone
     model.restraints->beginNew();

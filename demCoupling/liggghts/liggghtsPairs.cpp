@@ -12,6 +12,7 @@
 #include "update.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace flotsam
 {
@@ -160,6 +161,28 @@ void PairTally::finish(double duration)
     for (const auto& [key, sum] : sums_)
         if (sum.weight > 0)
             means_.push_back({key.first, key.second, sum.weightedPoint / sum.weight, sum.force / duration, sum.overlap, sum.spheres});
+}
+
+void PairTally::leaveWalls(const std::vector<char>& isGone, std::vector<Load>& wallsNow)
+{
+    std::vector<char> isLeft(wallsNow.size(), 0), isTouched(wallsNow.size(), 0);
+    for (auto at = now_.begin(); at != now_.end();)
+    {
+        const auto& [key, sum] = *at;
+        const size_t wall = static_cast<size_t>(-1 - key.second);
+        const bool isLeaving = key.second < 0 && isGone[static_cast<size_t>(key.first)];
+        if (key.second < 0)
+            (isLeaving ? isLeft : isTouched)[wall] = 1;
+        if (isLeaving && sum.weight > 0)
+        {
+            wallsNow[wall].force += sum.force;
+            wallsNow[wall].moment += (sum.weightedPoint / sum.weight).cross(sum.force);
+        }
+        at = isLeaving ? now_.erase(at) : std::next(at);
+    }
+    for (size_t w = 0; w < wallsNow.size(); ++w)
+        if (isLeft[w] && !isTouched[w])
+            wallsNow[w] = {}; // without round-off
 }
 
 void PairTally::append(std::vector<double>& data) const

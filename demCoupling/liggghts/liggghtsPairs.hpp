@@ -37,6 +37,8 @@ public:
     /// Returns the position behind what was read.
     size_t read(const std::vector<double>& data, size_t position);
     void forget() { now_.clear(); }
+    /// Bodies that are gone touch no wall any more; takes their part of the walls' loads at this instant. What they did to other bodies is in these' forces until the next sub-step.
+    void leaveWalls(const std::vector<char>& isGone, std::vector<Load>& wallsNow);
 
 private:
     /// Forces on the first of two, added up.

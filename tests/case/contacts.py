@@ -47,6 +47,8 @@ def checkSums(case):
         for kind, names in (("bodies/", h.bodies), ("structures/", h.structures)):
             for name in names:
                 member = h[kind + name]
+                if kind == "bodies/" and member.left[record] > 0.5:
+                    continue    # its contactForce is 0, what it did to others in its last step is there
                 found = force[first == member.number].sum(0) - force[second == member.number].sum(0) + restraints.get(name, 0)
                 worst[kind] = max(worst[kind], np.abs(found - member.contactForce[record]).max() / max(scale, np.abs(member.contactForce[record]).max()))
         partners |= set(zip(first, second))

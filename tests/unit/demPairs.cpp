@@ -182,6 +182,34 @@ TEST_CASE("the first step of bodies that lie in each other at the start")
     CHECK(imbalance(engine, setup) < roundOff);
 }
 
+TEST_CASE("what is gone presses on nothing")
+{
+    const double radius = 0.01;
+    for (const bool hasMesh : {false, true})
+    {
+        CAPTURE(hasMesh);
+        const WallDefinition floor = hasMesh ? block(Vec3(-0.1, -0.1, -0.05), Vec3(0.2, 0.1, 0)) : plane(Vec3::Zero(), Vec3::UnitZ());
+        const DemSetup setup = scene({ball(radius, 0.05, Vec3(0, 0, radius)), ball(radius, 0.02, Vec3(0.1, 0, radius))}, {floor});
+        LiggghtsEngine engine(setup);
+        settle(engine, weights(setup), 0.1);
+        CHECK(engine.meanWallLoads()[0].force[2] == near(-0.07 * gravity, 1e-4));
+        engine.setHeld({1, 0});
+        engine.setGone({1, 0});
+        engine.advance(interval);
+        CHECK(engine.meanWallLoads()[0].force[2] == near(-0.02 * gravity, 1e-3));
+        CHECK(engine.meanWallLoads()[0].moment[1] == near(0.1 * 0.02 * gravity, 1e-3));
+        CHECK(wallImbalance(engine) < roundOff);
+        CHECK(engine.meanContacts().size() == 1);
+        engine.setHeld({1, 1});
+        engine.setGone({1, 1});
+        engine.advance(interval);
+        CHECK(engine.meanWallLoads()[0].force == Vec3(0, 0, 0));
+        CHECK(engine.meanWallLoads()[0].moment == Vec3(0, 0, 0));
+        CHECK(engine.meanContacts().empty());
+        CHECK_FALSE(engine.hasContact());
+    }
+}
+
 TEST_CASE("movers, restraints and bodies of a plane have their part")
 {
     const double radius = 0.01;
