@@ -39,6 +39,7 @@ def evaluate(h, series, options):
     direction = AXES[options.direction] if options.direction else clogging.streamDirection(h)
     structures = clogging.chosen(h, options.structures)
     zone = clogging.Zone(options.at, options.at) if options.at is not None else clogging.zoneOf(h, structures, direction)
+    holders = structures if options.at is None or options.structures else []    # else by what is no structure
     start = h.time[0] + 0.75 * (h.time[-1] - h.time[0]) if options.start is None else options.start
     if not h.time[0] <= start < h.time[-1]:
         raise flotsam.CaseError(f"--start {start:g}: the run has records from {h.time[0]:g} to {h.time[-1]:g} s")
@@ -48,11 +49,11 @@ def evaluate(h, series, options):
     if h.bodies:
         figures["bodies"] = {"number": len(h.bodies), "volume": sum(h["bodies/" + name].volume for name in h.bodies)}
     if h.bodies and zone:
-        fate = clogging.fates(h, zone, direction, structures)
+        fate = clogging.fates(h, zone, direction, holders)
         figures["bodies"].update(_ofFate(h, fate, zone))
-        figures["bodies"]["areContactsKnown"] = contactNetwork.isKnown(h, structures)
+        figures["bodies"]["areContactsKnown"] = contactNetwork.isKnown(h, holders)
         if figures["bodies"]["areContactsKnown"]:
-            figures["bodies"]["keys"] = [one._asdict() for one in contactNetwork.keys(h, structures, fate.held[:, -1])]
+            figures["bodies"]["keys"] = [one._asdict() for one in contactNetwork.keys(h, holders, fate.held[:, -1])]
         figures["bodies"]["longest"] = {name: clogging.meanLongest(h, getattr(fate, name)[:, -1]) for name in ("held", "passed")}
     return figures, fate
 

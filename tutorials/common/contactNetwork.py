@@ -51,8 +51,8 @@ def isConnected(h, structures, span):
     written, numbers, holders = h.contacts["time"], numbersOfBodies(h), holdersOf(h, structures)
     result, known = np.zeros((len(numbers), len(h.time)), dtype=bool), {}
     for r, t in enumerate(h.time):
-        last, following = (int(np.searchsorted(written, t + way * 1e-9 * max(t, 1), side)) - off for way, side, off in ((1, "right", 1), (-1, "left", 0)))
-        times = tuple(k for k in range(len(written)) if t - span < written[k] <= t or k in (last, following))
+        first = min(np.searchsorted(written, t - span, "right"), np.searchsorted(written, t, "right") - 1)
+        times = range(max(first, 0), min(np.searchsorted(written, t) + 1, len(written)))
         if times not in known:
             found = reached(links(h, times), holders, numbers)
             known[times] = np.isin(numbers, list(found))
