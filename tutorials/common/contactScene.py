@@ -10,7 +10,7 @@ import contactNetwork
 import flotsamScene
 
 COLOUR_MAP = "inferno_r"
-FAINTEST = 0.12     # of the colour map: what is fainter is not seen on white
+FAINTEST = 0.25     # of the colour map: what is fainter is not seen on white
 
 
 def _contacts(h, time):
@@ -84,7 +84,7 @@ def _bounds(contacts, surfaces):
     return np.stack((points.min(0) - margin, points.max(0) + margin), axis=1).ravel()
 
 
-def renderContacts(time, file, history, camera="perspective", size=(1600, 900), up=2):
+def renderContacts(time, file, history, camera="perspective", size=(1600, 900), zoom=1.0, up=2):
     """Writes a PNG of the bodies that touch something, seen through, and of the lines of their contacts at the write time nearest to `time`. False where nothing touches."""
     contacts = _contacts(history, time)
     if contacts is None:
@@ -96,7 +96,7 @@ def renderContacts(time, file, history, camera="perspective", size=(1600, 900), 
     for _, isStructure, data in surfaces:
         renderer.AddActor(flotsamScene._actor(data, flotsamScene.COLOURS["structure" if isStructure else "body"], 0.25 if isStructure else 0.16, smooth=True))
     bounds = _bounds(contacts, surfaces)
-    tubes, largest = _tubes(contacts, 0.012 * max(np.ptp(bounds.reshape(3, 2), axis=1)))
+    tubes, largest = _tubes(contacts, 0.016 * max(np.ptp(bounds.reshape(3, 2), axis=1)))
     table = _lookup(largest)
     actor = flotsamScene._actor(tubes, (0, 0, 0))
     mapper = actor.GetMapper()
@@ -108,7 +108,7 @@ def renderContacts(time, file, history, camera="perspective", size=(1600, 900), 
     renderer.AddActor(actor)
     renderer.AddActor2D(_bar(table))
     flotsamScene._addTitle(renderer, f"contacts at t = {contacts.time:.3f} s", size)
-    flotsamScene._aim(renderer, camera, bounds, 1.0, up, size[0] / size[1])
+    flotsamScene._aim(renderer, camera, bounds, zoom, up, size[0] / size[1])
     flotsamScene._addLights(renderer, up)
     flotsamScene._writePng(renderer, file, size)
     return True
