@@ -15,13 +15,18 @@ stopped() {
     (cd "$1" && solve 1) || exit
 }
 
+# threeWays CASE TIME END: on one process, on two, and stopped at TIME
+threeWays() {
+    cp -r "$1" "$1Two"
+    cp -r "$1" "$1Parts"
+    (cd "$1" && solve 1) || exit
+    (cd "$1Two" && quietly decomposePar && solve 2) || exit
+    stopped "$1Parts" "$2" "$3"
+}
+
 makeJam jam
 setEntry jam/system/controlDict endTime 0.05
-cp -r jam jamTwo
-cp -r jam jamParts
-(cd jam && solve 1) || exit
-(cd jamTwo && quietly decomposePar && solve 2) || exit
-stopped jamParts 0.03 0.05
+threeWays jam 0.03 0.05
 
 makeFloatingBar tank
 cat > tank/constant/bodies << 'END'
@@ -43,11 +48,7 @@ restraints
 }
 END
 fixedSteps tank 0.002 0.04 5
-cp -r tank tankTwo
-cp -r tank tankParts
-(cd tank && solve 1) || exit
-(cd tankTwo && quietly decomposePar && solve 2) || exit
-stopped tankParts 0.02 0.04
+threeWays tank 0.02 0.04
 
 makeJam leave
 sed -i -e '/^structures$/,/^}$/d' -e 's/density     590/density     1500/' -e 's/velocity    (0.5 0 0)/velocity    (1.2 0 0)/' -e 's/(-0.0225 0 0.167)/(0.03 0 0.0105)/' -e 's/(-0.046 0.01 0.166)/(0.007 0.01 0.0105)/' \
