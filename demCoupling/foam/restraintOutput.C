@@ -60,7 +60,7 @@ std::vector<LineRecord> RestraintOutput::lines(const std::vector<BodyRecord>& re
     {
         const Vec3 end = inSpace(restraints_[i].end, records_[i][0], records), other = inSpace(restraints_[i].other, records_[i][1], records);
         const bool isThere = !loads[i].isBroken && loads[i].length > 0;
-        lines.push_back({end, isThere ? other : end, loads[i].tension});
+        lines.push_back({end, isThere ? other : end, loads[i].tension, records_[i][0], records_[i][1]});
     }
     return lines;
 }

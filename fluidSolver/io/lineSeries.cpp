@@ -21,6 +21,15 @@ std::string joined(const std::vector<std::string>& names)
     return std::accumulate(names.begin(), names.end(), std::string(), [](const std::string& all, const std::string& name) { return all.empty() ? name : all + ' ' + name; });
 }
 
+/// Where the file is of a version without them: nobody knows what its lines were fastened to.
+void createMembers(Hdf5File& out, std::size_t nLines, std::size_t nTimes)
+{
+    out.createTable(group + "/members", 2, nLines, Hdf5File::Storage::Int32);
+    if (nTimes == 0) return;
+    const std::vector<int> unknown(2*nLines*nTimes, -1);
+    out.appendRows(group + "/members", unknown.data(), nLines*nTimes);
+}
+
 } // namespace
 
 void LineSeries::create(Hdf5File& out) const
@@ -34,6 +43,7 @@ void LineSeries::create(Hdf5File& out) const
     out.createTable(group + "/time", 1, 256);
     out.createTable(group + "/points", 3, 2 * n);   // double precision, as those of the surfaces: maps' grids
     out.createTable(group + "/tension", 1, n);
+    createMembers(out, n, 0);
     out.setAttribute(group, "names", joined(names_));
     for (const auto& [table, unit] : {std::pair<const char*, const char*>{"/time", "s"}, {"/points", "m"}, {"/tension", "N"}}) out.setAttribute(group + table, "unit", std::string(unit));
 }
@@ -44,10 +54,11 @@ void LineSeries::continueFrom(Hdf5File& out, double startTime)
     if (isEmpty() || out.stringAttribute(group, "names") != joined(names_))
         throw std::runtime_error(file_ + ": holds other restraints (" + out.stringAttribute(group, "names") + "); rename or remove it to start a new one");
     times_ = out.readArray(group + "/time");
+    if (!out.exists(group + "/members")) createMembers(out, names_.size(), times_.size());
     while (!times_.empty() && times_.back() > startTime) times_.pop_back();
     out.setRows(group + "/time", times_.size());
     out.setRows(group + "/points", 2 * names_.size() * times_.size());
-    out.setRows(group + "/tension", names_.size() * times_.size());
+    for (const char* table : {"/tension", "/members"}) out.setRows(group + table, names_.size() * times_.size());
 }
 
 void LineSeries::append(Hdf5File& out, double time, const std::vector<LineRecord>& lines)
@@ -55,13 +66,16 @@ void LineSeries::append(Hdf5File& out, double time, const std::vector<LineRecord
     if (isEmpty() || (!times_.empty() && time <= times_.back())) return;
     if (lines.size() != names_.size()) throw std::logic_error(file_ + ": " + std::to_string(lines.size()) + " lines for " + std::to_string(names_.size()) + " names");
     std::vector<double> points, tension;
+    std::vector<int> members;
     for (const LineRecord& line : lines)
     {
         for (const Vec3* end : {&line.begin, &line.end}) points.insert(points.end(), end->data(), end->data() + 3);
         tension.push_back(line.tension);
+        members.insert(members.end(), {line.first, line.second});
     }
     out.appendRows(group + "/points", points.data(), 2 * lines.size());
     out.appendRows(group + "/tension", tension.data(), lines.size());
+    out.appendRows(group + "/members", members.data(), lines.size());
     out.appendRows(group + "/time", &time, 1);
     times_.push_back(time);
 }

@@ -17,9 +17,10 @@ struct LineRecord
 {
     Vec3 begin = Vec3::Zero(), end = Vec3::Zero();  ///< [m]
     double tension = 0;                             ///< negative: it pushes [N]
+    int first = -1, second = -1;                    ///< members that its ends are fastened to; -1: a point of space
 };
 
-/// Group /restraints: lines (once); time, points, tension (rows per written time). Without lines there is no group.
+/// Group /restraints: lines (once); time, points, tension, members (rows per written time). Without lines there is no group.
 class LineSeries
 {
 public:

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# flotsamReport after short runs: bars at pipes (3D), a bar afloat (2D), bars on a rack and a bank (2D): page, figures, plots and pictures; what rests on the bank is not held by the rack; what is
-# wrong with the command line is said.
+# flotsamReport after short runs: bars at pipes (3D), a bar afloat (2D), bars on a rack and a bank (2D), bars that hang on each other (2D): page, figures, plots and pictures; what rests on the bank is
+# not held by the rack; patches and anchors of restraints may be what holds; what is wrong with the command line is said.
 . "$(dirname "$0")/support.sh"
 mkdir -p "$work" && cd "$work" || exit
 rm -rf ./*
@@ -30,7 +30,26 @@ bodies
 }
 END
 fixedSteps bank 0.002 0.2 5
-for name in jam bar bank; do
+makeFloatingBar hanging
+cat > hanging/constant/bodies << 'END'
+FoamFile { version 2.0; format ascii; class dictionary; object bodies; }
+bodies
+{
+    bar
+    {
+        shape { type box; size (0.02 0.02 0.05); } density 2500; velocity (0 -0.1 0);
+        // on a line; on the one above; on the bed
+        poses ( { position (0.05 -0.03 0.025); } { position (0.05 -0.06 0.025); } { position (-0.05 -0.088 0.025); } );
+    }
+}
+restraints
+{
+    line { type tether; body bar.0; refAttachmentPt (0.05 -0.02 0.025); anchor (0.05 0.01 0.025); length 0.032; stiffness 1000; damping 10; }
+    link { type tether; stiffness 1000; damping 10; body bar.1; refAttachmentPt (0.05 -0.05 0.025); otherBody bar.0; otherRefAttachmentPt (0.05 -0.04 0.025); length 0.012; }
+}
+END
+fixedSteps hanging 0.002 0.3 10
+for name in jam bar bank hanging; do
     (cd $name && solve 1) || exit
     (cd $name && quietly "$report") || exit
 done
@@ -38,7 +57,11 @@ done
 cp -r bank unknown
 python -c 'import h5py; del h5py.File("unknown/postProcessing/flotsam/bodies.h5", "r+")["contacts"]' || exit
 for name in bank unknown; do (cd $name && quietly "$report" --direction=x --structures rack) || exit; done
-for mistake in "nowhere" "jam --start 99" "jam --structures rack"; do
+cp -r hanging bed
+for name in "hanging line" "bed walls"; do
+    (cd "${name% *}" && quietly "$report" --direction=x --structures "${name#* }" --at 1 --no-pictures) || exit
+done
+for mistake in "nowhere" "jam --start 99" "jam --structures rack" "hanging --structures line"; do
     # shellcheck disable=SC2086
     "$report" $mistake > log.mistake 2>&1 && fail "no error of: flotsamReport $mistake"
     grep -q "^flotsamReport: " log.mistake && ! grep -q Traceback log.mistake || fail "message of: flotsamReport $mistake: $(cat log.mistake)"
@@ -74,6 +97,14 @@ for name, held, elsewhere in (("bank", 2, 2), ("unknown", 4, 0)):
         key = bodies["keys"][0]
         checks.check("the bar on the rack holds the one on it", float(key["name"] == "bar.0") * key["holds"], 1, 0)
         checks.check("its force on the rack: weights less buoyancy [N]", key["force"], 2 * 1500 * 0.02**2 * 0.05 * 9.81, 0.05)
+for name, heldBy, held in (("hanging", "line", 2), ("bed", "walls", 1)):
+    with open(f"{name}/postProcessing/flotsam/report/report.json", encoding="utf-8") as file:
+        bodies = json.load(file)["bodies"]
+    checks.check(f"{name}: bars held by {bodies['heldBy']}", bodies["held"], held, 0)
+    checks.check(f"{name}: bars at rest elsewhere", bodies["elsewhere"], 3 - held, 0)
+    checks.check(f"{name}: bodies that the first one holds", bodies["keys"][0]["holds"], held - 1, 0)
+    checks.check(f"{name}: its force on what holds it: weights less buoyancy [N]", bodies["keys"][0]["force"], held * 1500 * 0.02**2 * 0.05 * 9.81, 0.05)
+    checks.check(f"{name}: what holds is on its page", float(f"with {heldBy}," in open(f"{name}/postProcessing/flotsam/report/report.md", encoding="utf-8").read()), 1, 0)
 for name, pictures in (("jam", ["series.png", "scene_0.05s.png"]), ("bar", ["series.png", "scene_0.02s.png"]), ("bank", ["series.png", "scene_0.2s.png", "contacts_0.2s.png"])):
     folder = f"{name}/postProcessing/flotsam/report"
     text = open(f"{folder}/report.md", encoding="utf-8").read()

@@ -69,9 +69,9 @@ class Clogging(unittest.TestCase):
         h = History(np.linspace(0, 1, 5), {})
         self.assertEqual(clogging.fates(h, clogging.Zone(0, 1), DOWNSTREAM).held.shape, (0, 5))
         self.assertIsNone(clogging.zoneOf(h, [], DOWNSTREAM))
-        self.assertEqual(clogging.chosen(h, ["rack"]), h.structures)
-        self.assertEqual(clogging.chosen(h, ["rack.1"]), ["rack.1"])
-        with self.assertRaisesRegex(flotsam.CaseError, "no structure dam; there are: rack"):
+        self.assertEqual(clogging.chosen(h, ["rack"]).structures, h.structures)
+        self.assertEqual(clogging.chosen(h, ["rack.1"]).structures, ["rack.1"])
+        with self.assertRaisesRegex(flotsam.CaseError, "nothing of the name dam holds bodies; there are: structures rack$"):
             clogging.chosen(h, ["dam"])
         self.assertEqual(clogging.groupsOf(["rack.0", "rack.1", "v1.5", "pier"]), {"rack": ["rack.0", "rack.1"], "v1": ["v1.5"], "pier": ["pier"]})
 
@@ -88,19 +88,50 @@ class Clogging(unittest.TestCase):
         pairs = [(number[a], number[b]) for contacts in times for a, b in contacts]
         n = len(pairs)
         h.contacts = {"time": np.array([1.0, 3.9]), "begin": np.array([0, 2, n]), "first": np.array([a for a, _ in pairs]), "second": np.array([b for _, b in pairs]),
-                      "force": np.outer(np.arange(1, n + 1), [0, 0, 1.0]), "point": np.zeros((n, 3)), "line": np.zeros((3 * n, 3))}
-        fate = clogging.fates(h, clogging.Zone(1.9, 2.0), DOWNSTREAM, ["rack.0"])
+                      "force": np.outer(np.arange(1, n + 1), [0, 0, 1.0]), "point": np.zeros((n, 3)), "line": np.zeros((3 * n, 3)), "walls": ["bed"]}
+        held = lambda wanted: clogging.fates(h, clogging.Zone(1.9, 2.0), DOWNSTREAM, clogging.chosen(h, wanted)).held[:, -1]  # noqa: E731
+        fate = clogging.fates(h, clogging.Zone(1.9, 2.0), DOWNSTREAM, clogging.chosen(h, ["rack.0"]))
         np.testing.assert_array_equal(sum(state.astype(int) for state in fate), 1)
         np.testing.assert_array_equal(fate.held[:, -1], [True, True, False, True, False])
         np.testing.assert_array_equal(fate.elsewhere[:, -1], [False, False, True, False, False])
         self.assertEqual(clogging.retention(fate)[-1], 1)
-        keys = contactNetwork.keys(h, ["rack.0"], fate.held[:, -1])
+        keys = contactNetwork.keys(h, clogging.chosen(h, ["rack.0"]), fate.held[:, -1])
         self.assertEqual([tuple(key) for key in keys], [("atRack", 2, 3.0), ("behind", 1, 0.0)])
-        np.testing.assert_array_equal(clogging.fates(h, clogging.Zone(1.9, 2.0), DOWNSTREAM, ["rack.0", "rack.1"]).held[:, -1], fate.held[:, -1])
+        np.testing.assert_array_equal(held(["rack.0", "rack.1"]), fate.held[:, -1])
+        np.testing.assert_array_equal(held(None), fate.held[:, -1])
+        np.testing.assert_array_equal(held(["bed"]), [True, True, True, True, False])    # behind is on it, too
         h.contacts["second"][n - 1] = number["bed"]     # in a row no more
-        np.testing.assert_array_equal(clogging.fates(h, clogging.Zone(1.9, 2.0), DOWNSTREAM, ["rack.0"]).elsewhere[:, -1], [False, False, True, True, False])
-        h.restraints = {"names": ["line"]}  # nobody knows what hangs on it
-        np.testing.assert_array_equal(clogging.fates(h, clogging.Zone(1.9, 2.0), DOWNSTREAM, ["rack.0"]).held[:, -1], [True] * 4 + [False])
+        np.testing.assert_array_equal(held(["rack.0"]), [True, True, False, False, False])
+        np.testing.assert_array_equal(held(["bed"]), [True, True, True, True, False])
+
+    def test_restraints_hold(self):
+        """Two floats one behind the other on a line, a log that touches the second one, one that lies on the bed; the link between the floats breaks at 3 s."""
+        time = np.linspace(0, 6, 241)
+        still = lambda t: min(SPEED * t, 0.8)  # noqa: E731
+        names = ["first", "second", "log", "onBed", "drifts"]
+        h = History(time, {name: (lambda t: SPEED * t) if name == "drifts" else still for name in names})
+        for k, name in enumerate(names):
+            h["bodies/" + name].number = 2 + k
+        pairs = np.array([(4, 3), (5, 7)] * 2)
+        h.contacts = {"time": np.array([2.0, 5.0]), "begin": np.array([0, 2, 4]), "first": pairs[:, 0], "second": pairs[:, 1], "force": np.zeros((4, 3)), "point": np.zeros((4, 3)),
+                      "line": np.zeros((12, 3)), "walls": ["bed"]}
+        ends = np.array([[(0, 0, 0), (3, 4, 0)], [(0, 0, 1), (0, 0, 2)], [(0, 0, 0), (3, 4, 0)], [(0, 0, 1), (0, 0, 1)]], dtype=float)
+        h.restraints = {"names": ["line", "link"], "time": np.array([0.0, 2.0, 5.0]), "members": np.array([(2, -1), (3, 2)] * 3), "tension": np.array([0, 0, 10, 1, 20, 0], dtype=float),
+                        "points": np.concatenate([ends[:2], ends]).reshape(-1, 3)}
+        fate = lambda wanted: clogging.fates(h, clogging.Zone(1.9, 2.0), DOWNSTREAM, clogging.chosen(h, wanted))  # noqa: E731
+        held, early = fate(["line"]).held, np.searchsorted(time, 2.5)
+        np.testing.assert_array_equal(held[:, early], [True, True, True, False, False])
+        np.testing.assert_array_equal(held[:, -1], [True, False, False, False, False])
+        np.testing.assert_array_equal(fate(None).held, held)        # the racks touch nothing
+        np.testing.assert_array_equal(fate(["rack", "link"]).held.any(axis=1), [False] * 5)     # both ends of the link are bodies
+        np.testing.assert_array_equal(fate(["bed"]).held[:, -1], [False, False, False, True, False])
+        key, = contactNetwork.keys(h, clogging.chosen(h, ["line"]), held[:, -1])
+        self.assertEqual((key.name, key.holds), ("first", 0))
+        self.assertAlmostEqual(key.force, 20)
+        with self.assertRaisesRegex(flotsam.CaseError, "there are: structures rack; patches that bodies touch bed; restraints line, link"):
+            clogging.chosen(h, ["boom"])
+        del h.restraints["members"]     # of an older version: nobody knows what hangs on it
+        np.testing.assert_array_equal(fate(["line"]).held[:, -1], [True] * 4 + [False])
 
     def test_confidence(self):
         np.testing.assert_allclose(clogging.confidence(8, 10), (0.49016, 0.94332), atol=2e-5)    # Wilson 1927

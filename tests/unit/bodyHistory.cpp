@@ -303,7 +303,7 @@ namespace
 std::vector<LineRecord> linesAt(double t)
 {
     const Vec3 lost(5, 0, 0);
-    return {{Vec3(t, 0, 0), Vec3(t, 1, t), 10 + t}, {lost, t < 2 ? Vec3(6, 0, 0) : lost, t < 2 ? -1.0 : 0.0}};
+    return {{Vec3(t, 0, 0), Vec3(t, 1, t), 10 + t, 1, t < 1 ? 0 : -1}, {lost, t < 2 ? Vec3(6, 0, 0) : lost, t < 2 ? -1.0 : 0.0}};
 }
 
 const std::vector<std::string> lineNames{"mooring", "link"};
@@ -330,6 +330,7 @@ TEST_CASE("lines between bodies go on where a run does, and are there for ParaVi
     }
     CHECK(read(file, "/restraints/time") == std::vector<double>{0, 1, 2});
     CHECK(read(file, "/restraints/tension") == std::vector<double>{10, -1, 11, -1, 12, 0});
+    CHECK(read(file, "/restraints/members") == std::vector<double>{1, 0, -1, -1, 1, -1, -1, -1, 1, -1, -1, -1});
     const auto points = read(file, "/restraints/points");
     REQUIRE(points.size() == 3 * 2 * 2 * 3);
     CHECK(Vec3(points.data() + 3 * (4 + 1)) == Vec3(1, 1, 1));

@@ -24,7 +24,7 @@ def arguments():
     parser = argparse.ArgumentParser(prog="flotsamReport", description="Writes report.md, report.json, plots and pictures of a case into CASE/postProcessing/flotsam/report.")
     parser.add_argument("case", nargs="?", default=".", help="folder of the case (default: this one)")
     parser.add_argument("--direction", choices=[*AXES], help="of the stream (default: that in which bodies come farthest): --direction=-x")
-    parser.add_argument("--structures", nargs="+", metavar="NAME", help="that bodies are to be held by (default: all); members or groups")
+    parser.add_argument("--structures", nargs="+", metavar="NAME", help="that bodies are to be held by: structures, members or groups; patches of the mesh; restraints, by their anchors (default: all structures and restraints)")
     parser.add_argument("--at", type=float, metavar="S", help="where bodies count as passed, along the stream [m], instead of the structures' end: for structures in the mesh")
     parser.add_argument("--start", type=float, metavar="T", help="means of forces are from this time on [s] (default: the last quarter)")
     parser.add_argument("--times", type=float, nargs="+", metavar="T", help="of the pictures [s] (default: a third, two thirds, the end)")
@@ -37,9 +37,12 @@ def arguments():
 def evaluate(h, series, options):
     """All figures of the report, as in report.json, and what became of the bodies. series: of forces, by name."""
     direction = AXES[options.direction] if options.direction else clogging.streamDirection(h)
-    structures = clogging.chosen(h, options.structures)
-    zone = clogging.Zone(options.at, options.at) if options.at is not None else clogging.zoneOf(h, structures, direction)
-    holders = structures if options.at is None or options.structures else []    # else by what is no structure
+    holders = clogging.chosen(h, options.structures)
+    zone = clogging.Zone(options.at, options.at) if options.at is not None else clogging.zoneOf(h, holders.structures, direction)
+    if options.structures and h.bodies and not zone:
+        raise flotsam.CaseError(f"--structures {' '.join(options.structures)}: no structure of constant/bodies, of which the end would be known; say with --at where bodies have passed")
+    if options.at is not None and not options.structures:
+        holders = contactNetwork.Holders([], [], [])    # what is in the mesh was not named: whatever is at rest is held
     start = h.time[0] + 0.75 * (h.time[-1] - h.time[0]) if options.start is None else options.start
     if not h.time[0] <= start < h.time[-1]:
         raise flotsam.CaseError(f"--start {start:g}: the run has records from {h.time[0]:g} to {h.time[-1]:g} s")
@@ -53,6 +56,7 @@ def evaluate(h, series, options):
         figures["bodies"].update(_ofFate(h, fate, zone))
         figures["bodies"]["areContactsKnown"] = contactNetwork.isKnown(h, holders)
         if figures["bodies"]["areContactsKnown"]:
+            figures["bodies"]["heldBy"] = ", ".join(name for names in holders for name in clogging.groupsOf(names))
             figures["bodies"]["keys"] = [one._asdict() for one in contactNetwork.keys(h, holders, fate.held[:, -1])]
         figures["bodies"]["longest"] = {name: clogging.meanLongest(h, getattr(fate, name)[:, -1]) for name in ("held", "passed")}
     return figures, fate
@@ -109,7 +113,7 @@ def page(case, figures, pictures):
     if bodies and bodies.get("keys"):
         lines += _keyTable(bodies["keys"])
     if bodies and "held" in bodies:
-        touch = " and in contact with the structures, directly or through others (else: at rest elsewhere)" if bodies["areContactsKnown"] else ""
+        touch = f" and connected by contacts or restraints with {bodies['heldBy']}, directly or through others (else: at rest elsewhere)" if bodies["areContactsKnown"] else ""
         lines += ["", f"Held: at rest (less than {clogging.SLOW:g} of the speed with which bodies come, over {clogging.SPAN:g} s) with the centre before {bodies['end']:.4g} m along the stream{touch}; "
                   "passed: beyond. In brackets: what chance leaves open in 95 of 100 cases, were bodies independent."]
     lines += [line for name in pictures for line in ("", f"![{name}]({name})")]
@@ -119,8 +123,8 @@ def page(case, figures, pictures):
 def _keyTable(keys, most=8):
     """Of the bodies on which others hang."""
     rest = f" (the first {most} of {len(keys)})" if len(keys) > most else ""
-    lines = ["", f"Key bodies at the last write time{rest}: how many others contacts would connect with the structures no longer were it not there, and its own force on these.", "",
-             "| body | holds | force on structures [N] |", "|---|---|---|"]
+    lines = ["", f"Key bodies at the last write time{rest}: how many others would be connected with what holds them no longer were it not there, and its own force on that.", "",
+             "| body | holds | force on what holds it [N] |", "|---|---|---|"]
     return lines + [f"| {one['name']} | {one['holds']} | {one['force']:.4g} |" for one in keys[:most]]
 
 

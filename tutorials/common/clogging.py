@@ -30,15 +30,18 @@ def groupsOf(names):
 
 
 def chosen(h, wanted):
-    """Names of the structures that are wanted, of members or groups; all where none is."""
+    """What is to hold bodies, contactNetwork.Holders: structures, patches that bodies touch and restraints of these names, members or groups. Where none is named: all structures, and all restraints
+    that are fastened to points of space."""
+    restraints, walls = getattr(h, "restraints", {}).get("names", []), getattr(h, "contacts", {}).get("walls", [])
     if not wanted:
-        return h.structures
-    groups = groupsOf(h.structures)
-    found = [name for w in wanted for name in (groups.get(w) or ([w] if w in h.structures else []))]
-    missing = [w for w in wanted if w not in groups and w not in h.structures]
+        return contactNetwork.Holders(h.structures, [], restraints)
+    kinds = h.structures, walls, restraints
+    found = [[name for w in wanted for name in (groupsOf(names).get(w) or ([w] if w in names else []))] for names in kinds]
+    missing = [w for w in wanted if not any(w in names or w in groupsOf(names) for names in kinds)]
     if missing:
-        raise CaseError(f"no structure {missing[0]}; there are: {', '.join(groups) or 'none'}")
-    return found
+        there = "; ".join(f"{kind} {', '.join(groupsOf(names))}" for kind, names in zip(("structures", "patches that bodies touch", "restraints"), kinds) if names)
+        raise CaseError(f"nothing of the name {missing[0]} holds bodies; there are: {there or 'none'}")
+    return contactNetwork.Holders(*found)
 
 
 def streamDirection(h):
@@ -62,9 +65,9 @@ def zoneOf(h, structures, direction):
     return Zone(s.min(), s.max())
 
 
-def fates(h, zone, direction, structures=()):
+def fates(h, zone, direction, holders=contactNetwork.Holders([], [], [])):
     """What has become of each body in each record. Held: at rest, and not beyond the structures' end; passed: the centre is beyond it. Where the file has contacts, what is at rest
-    and not connected with one of the structures, by way of other bodies or none, rests elsewhere: on a bank, on the bed, or it waits to be let go."""
+    and not connected with one of the holders, by way of other bodies or none, rests elsewhere: on a bank, on the bed, or it waits to be let go."""
     if not h.bodies:
         return Fate(*np.zeros((6, 0, len(h.time)), dtype=bool))
     s = driftwood.positions(h) @ direction
@@ -75,7 +78,7 @@ def fates(h, zone, direction, structures=()):
     approach = approachSpeed(speed, awaited | left)
     isBeyond = ~awaited & (s > zone.end)
     isRest = ~awaited & ~left & ~isBeyond & (speed < SLOW * approach)
-    isHeld = isRest & contactNetwork.isConnected(h, structures, SPAN) if contactNetwork.isKnown(h, structures) else isRest
+    isHeld = isRest & contactNetwork.isConnected(h, holders, SPAN) if contactNetwork.isKnown(h, holders) else isRest
     return Fate(awaited, ~awaited & ~left & ~isBeyond & ~isRest, isHeld, isBeyond, left & ~isBeyond, isRest & ~isHeld)
 
 
