@@ -90,7 +90,7 @@ void FlowEquation::addFacetGroup(const FacetGroup<D>& group, const Solid& solid,
     }
     const FacetMotion motion(group, nodes, arm, q, nodal_);
     const bool isSlip = solid.wall == Solid::Wall::Slip;
-    WallCoefficients c = controls_.nitsche ? nitscheCoefficients(data, isSlip, controls_.nitscheGamma, mesh_.h[group.element], penaltyRateOf(group.element), motion.slip)
+    WallCoefficients c = controls_.nitsche ? nitscheCoefficients(data, isSlip, controls_.nitscheGamma, mesh_.h[group.element], penaltyRateOf(group.element), controls_.wallInflow*motion.slip)
                                            : penaltyCoefficients(isSlip, controls_.penalty);
     if (controls_.nitsche && !isSlip && controls_.separation > 0)
         c.tangential = std::max(c.tangential, holdOfSolid(data, nodes, arm, q, nodal_, *step_.state, controls_.separation, mesh_.h[group.element]));

@@ -31,7 +31,7 @@ struct WallCoefficients
 };
 
 /// Of the Nitsche condition, without the surface's convection. Eddies transfer nothing to a no-slip wall: there the layer below them does.
-/// rate: penaltyRate() [1/s]; outflow: (a - ubar).n, mean over the facet [m/s].
+/// rate: penaltyRate() [1/s]; outflow: (a - ubar).n that counts, mean over the facet [m/s].
 template<int D>
 inline WallCoefficients nitscheCoefficients(const ElementData<D>& e, bool isSlip, double gamma, double h, double rate, double outflow)
 {

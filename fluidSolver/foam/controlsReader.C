@@ -47,6 +47,7 @@ const std::vector<ControlEntry>& controlsTable()
         {"nitsche", &N::nitsche, anyValue, "on: Nitsche condition on solids; off: pure penalty (entry penalty)"},
         {"nitscheGamma", &N::nitscheGamma, {0, 1e6}, "coefficient of mu/h of the Nitsche condition"},
         {"separation", &N::separation, {0, 10}, "no-slip solids take this much of what the pressure takes where an unresolved stream along them slows down"},
+        {"wallInflow", &N::wallInflow, {0, 1}, "share of the term that gives fluid which enters through the wall of a solid the velocity of that"},
         {"wallGamma", &N::wallGamma, {0, 1e6}, "the same on no-slip patches where their layer is resolved (0: velocity prescribed at the nodes)"},
         {"wallLaw", &N::wallLaw, anyValue, "on: at least the traction of a turbulent layer on no-slip patches; off: of the resolved flow alone"},
         {"wallRoughness", &N::wallRoughness, {0, 1e3}, "sand roughness of no-slip patches in the wall law [m]"},
