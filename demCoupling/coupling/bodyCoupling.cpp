@@ -29,6 +29,7 @@ BodyCoupling::BodyCoupling(const DemSetup& setup, const CouplingControls& contro
     MPI_Comm_rank(comm, &rank_);
     const std::size_t n = setup.bodies.size();
     lastLoads_.resize(n);
+    lastChanges_.resize(n);
     newContact_.resize(n);
     contact_.resize(n);
     smoothing_.resize(n);
@@ -292,6 +293,8 @@ void BodyCoupling::accept(const std::vector<Motion>& inFluid)
     std::vector<char> isFound(states_.size());
     for (int b = 0; b < nBodies(); ++b)
     {
+        const Motion& before = smooth_->states()[b].motion;
+        lastChanges_[b] = {(inFluid[b].velocity - before.velocity)/dt_, (inFluid[b].angularVelocity - before.angularVelocity)/dt_};
         lastLoads_[b] = isHeld_[b] ? Load() : loads_[b]; // what holds a body takes its loads
         isFound[b] = answer_.isLight(b) && !answer_.isKnown(b);
         if (newContact_[b].isZero()) answer_.drop(b);
@@ -318,7 +321,7 @@ void BodyCoupling::reject()
 
 CouplingRecord BodyCoupling::record() const
 {
-    return {touch_.wallLoads, lastLoads_, contact_, contactGuess(), answer_.shares(), smooth_->save(), isHeld_, presence_, touch_.counts, touch_.wallCounts,
+    return {touch_.wallLoads, lastLoads_, lastChanges_, contact_, contactGuess(), answer_.shares(), smooth_->save(), isHeld_, presence_, touch_.counts, touch_.wallCounts,
             touch_.largestOverlap, touch_.peaks, touch_.wallPeaks};
 }
 
@@ -344,6 +347,7 @@ void BodyCoupling::restore(const std::vector<double>& data)
     NumberReader reader(data.data() + engineSize);
     passRecord(reader, stored);
     lastLoads_ = stored.lastLoads;
+    lastChanges_ = stored.lastChanges;
     contact_ = stored.contact;
     iteration_.setGuess(stored.guess);
     smoothing_ = difference(stored.guess, contact_);

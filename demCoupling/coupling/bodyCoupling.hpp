@@ -69,6 +69,7 @@ public:
     const std::vector<Load>& contactGuess() const { return iteration_.guess(); } ///< to solve the fluid with, from smoothStates()
     const std::vector<Load>& contactLoads() const { return contact_; } ///< mean over the last accepted step
     const std::vector<Load>& lastLoads() const { return lastLoads_; }       ///< fluid and weight, mean over the last accepted step; held bodies: 0
+    const std::vector<Motion>& lastChanges() const { return lastChanges_; } ///< of smoothStates() in the last accepted step's solve, over the step
     const std::vector<Load>& wallLoads() const { return touch_.wallLoads; }       ///< time means of the last DEM run, moments about the origin of space
     const std::vector<Vec3>& contactPeaks() const { return touch_.peaks; }        ///< force in the sub-step of the last DEM run in which it was largest [N]
     const std::vector<Vec3>& wallPeaks() const { return touch_.wallPeaks; }
@@ -130,6 +131,7 @@ private:
     bool isAtStart_ = false;                    // the engine is in the state saved_: no restore, which rebuilds the neighbour lists
     std::vector<BodyState> states_, predicted_, result_;
     std::vector<Load> lastLoads_, loads_, newContact_, contact_;
+    std::vector<Motion> lastChanges_;
     std::vector<Load> smoothing_, guessAtStart_; // smoothing_: of the guess, what is not contact
     std::vector<LoadShare> sharesAtStart_;
     NumberWriter sent_;                         // results of the engine, to all ranks

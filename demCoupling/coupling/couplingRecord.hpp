@@ -12,7 +12,9 @@ enum class Presence : char { There = 0, Left = 1, Awaited = 2 };
 
 struct CouplingRecord
 {
-    std::vector<Load> wallLoads, lastLoads, contact, guess;
+    std::vector<Load> wallLoads, lastLoads;
+    std::vector<Motion> lastChanges;
+    std::vector<Load> contact, guess;
     std::vector<LoadShare> shares;
     std::vector<double> smooth;     ///< SmoothMotion::save()
     std::vector<char> isHeld;
@@ -26,7 +28,7 @@ struct CouplingRecord
 template <class Archive, class Record>
 void passRecord(Archive& archive, Record& record)
 {
-    passAll(archive, record.wallLoads, record.lastLoads, record.contact, record.guess);
+    passAll(archive, record.wallLoads, record.lastLoads, record.lastChanges, record.contact, record.guess);
     passAll(archive, record.shares, record.smooth, record.isHeld, record.presence);
     passAll(archive, record.counts, record.wallCounts, record.largestOverlap, record.peaks, record.wallPeaks);
 }

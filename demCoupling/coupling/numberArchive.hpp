@@ -50,12 +50,14 @@ void pass(Archive& archive, T& value)
         for (int d = 0; d < 3; ++d) archive.number(value[d]);
     else if constexpr (std::is_same_v<Type, Load>)
         passAll(archive, value.force, value.moment);
+    else if constexpr (std::is_same_v<Type, Motion>)
+        passAll(archive, value.velocity, value.angularVelocity);
     else if constexpr (std::is_same_v<Type, RestraintLoad>)
         passAll(archive, value.force, value.tension, value.largest, value.length, value.isBroken);
     else if constexpr (std::is_same_v<Type, LoadShare>)
         for (int k = 0; k < value.size(); ++k) archive.number(value.data()[k]);
     else if constexpr (std::is_same_v<Type, BodyState>)
-        passAll(archive, value.pose.position, value.pose.orientation, value.motion.velocity, value.motion.angularVelocity, value.angularMomentum);
+        passAll(archive, value.pose.position, value.pose.orientation, value.motion, value.angularMomentum);
     else for (auto& part : value) pass(archive, part);
 }
 

@@ -63,8 +63,11 @@ std::vector<FreeBody> Scene::freeBodies(const BodyCoupling& coupling, double new
         FreeBody body;
         body.mass = definition.mass;
         body.inertia = R*definition.principalInertia.asDiagonal()*R.transpose();
-        body.velocity = coupling.smoothStates()[b].motion.velocity;
-        body.angularMomentum = coupling.smoothStates()[b].angularMomentum;
+        const BodyState& state = coupling.smoothStates()[b];
+        body.velocity = state.motion.velocity;
+        body.angularVelocity = state.motion.angularVelocity;
+        body.angularMomentum = state.angularMomentum;
+        body.lastChange = coupling.lastChanges()[b];
         const Load &last = coupling.lastLoads()[b], &contact = coupling.contactGuess()[b];
         const double share = coupling.newLoadShare(int(b), newLoadShare);
         body.newLoadShare = share;

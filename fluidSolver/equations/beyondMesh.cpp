@@ -94,7 +94,57 @@ Chord chordIn(const Solid& solid, const Vec3& x, const Vec3& n, double end, doub
     return chord;
 }
 
+/// Of a body in fluid without a wall, by its own axes, over the displaced fluid: those of beyondMesh.hpp, in space. In 2D none along the axis through the mesh counts.
+Eigen::Matrix3d addedMass(const SimplexMesh& mesh, const Solid& solid)
+{
+    const std::array<Vec3, 2> bounds = solid.shape->bounds();
+    const Eigen::Matrix3d axes = solid.pose.orientation.toRotationMatrix();
+    Vec3 slender = (bounds[1] - bounds[0]).cwiseInverse();
+    for (int k = 0; k < 3 && mesh.dim == 2; ++k)
+        if (std::abs(axes(mesh.axes[2], k)) > 0.7) slender[k] = 0;
+    Vec3 coefficients;
+    for (int k = 0; k < 3; ++k) coefficients[k] = slender[k]/(slender.sum() - slender[k]);
+    return axes*coefficients.asDiagonal()*axes.transpose();
+}
+
+Eigen::Matrix3d crossMatrix(const Vec3& r)
+{
+    Eigen::Matrix3d m;
+    m << 0, -r[2], r[1], r[2], 0, -r[0], -r[1], r[0], 0;
+    return m;
+}
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// Places of the system's degrees of freedom in a force and moment of space.
+std::vector<int> placesInSpace(const SimplexMesh& mesh)
+{
+    if (mesh.dim == 2) return {mesh.axes[0], mesh.axes[1], 3 + mesh.axes[2]};
+    return {0, 1, 2, 3, 4, 5};
+}
+
 } // namespace
+
+/// What acts on the part of a solid that is outside, in space, about the solid's position.
+struct BeyondMesh::Outside
+{
+    Vec3 centre, force = Vec3::Zero(), moment = Vec3::Zero();
+    Eigen::Matrix3d isRotation, addedMass;  // rotations about axes of symmetry move no fluid
+    Matrix6 inertia = Matrix6::Zero();
+
+    void addForce(const Vec3& f, const Vec3& at)
+    {
+        force += f;
+        moment += (at - centre).cross(f);
+    }
+
+    void addMass(double displaced, const Vec3& at)
+    {
+        Eigen::Matrix<double, 3, 6> velocity;
+        velocity << Eigen::Matrix3d::Identity(), -crossMatrix(at - centre)*isRotation;
+        inertia += displaced*velocity.transpose()*addedMass*velocity;
+    }
+};
 
 /// A face of an open patch.
 struct BeyondMesh::Face
@@ -142,11 +192,35 @@ bool BeyondMesh::isReached(const std::vector<Solid>& solids) const
     return false;
 }
 
-/// Of the flow, t^n, continued into bodies.
-std::vector<double> BeyondMesh::pressures(const FlowStepData& step) const
+/// Positive in the liquid.
+double BeyondMesh::side(const FlowStepData& step, int node) const { return step.level ? (*step.level)[node] : step.state->alpha[node] - 0.5; }
+
+/// At the nodes of a patch that does not prescribe it: of the stream at t^n. Where a fluid is behind bodies alone it is the flow's, continued into them.
+std::vector<double> BeyondMesh::pressures(const FlowStepData& step, const BoundaryPatch& patch) const
 {
+    const MeshPatch& faces = mesh_.patches[patch.meshPatch];
+    const auto isGas = [&](int i) { return side(step, i) <= 0; };
+    const auto weight = [&](int i) { return (isGas(i) ? fluid_.rhoGas : fluid_.rhoLiquid)*gravity_.dot(placeOf(mesh_, i)); };
+    double sums[2][2] = {};     // liquid, gas: pressure without the weight, area
+    for (std::size_t f = 0; f < faces.faceElement.size(); ++f)
+    {
+        if (!faces.isOwnedFace[f]) continue;
+        double v[3] = {};
+        outwardVector(mesh_, faces, f, v);
+        const double area = inSpace(mesh_, v).norm();
+        for (int k = 0; k < mesh_.dim; ++k)
+        {
+            const int i = faces.faceNodes[f*mesh_.dim + k];
+            if (!step.cover->isActiveNode[i]) continue;
+            sums[isGas(i)][0] += area*(step.state->p[i] - weight(i));
+            sums[isGas(i)][1] += area;
+        }
+    }
+    halo_.sum(sums[0], 4);
     std::vector<double> p = step.state->p;
     extendLinearly(mesh_, halo_, *step.cover, p, bodyRings);
+    for (int i : faces.faceNodes)
+        if (sums[isGas(i)][1] > 0) p[i] = sums[isGas(i)][0]/sums[isGas(i)][1] + weight(i);
     return p;
 }
 
@@ -178,7 +252,7 @@ BeyondMesh::Face BeyondMesh::makeFace(const FlowStepData& step, const BoundaryPa
     {
         const int i = nodes[k];
         face.corners[k] = placeOf(mesh_, i);
-        face.side[k] = step.level ? (*step.level)[i] : step.state->alpha[i] - 0.5;
+        face.side[k] = side(step, i);
         face.pressure[k] = pressure[isPrescribed ? std::lower_bound(patch.nodes.begin(), patch.nodes.end(), i) - patch.nodes.begin() : i];
         const auto corner = std::find(corners, corners + dim + 1, i) - corners;
         for (int d = 0; d < dim; ++d) slope[d] += face.pressure[k]*mesh_.gradN[(std::size_t(faces.faceElement[f])*(dim + 1) + corner)*dim + d];
@@ -193,37 +267,43 @@ BeyondMesh::Face BeyondMesh::makeFace(const FlowStepData& step, const BoundaryPa
     return face;
 }
 
-/// share: weightShare().
-void BeyondMesh::addFace(const Face& face, const Solid& solid, double share, Vec3& force, Vec3& moment) const
+/// share: weightShare(). What the pressure does not carry of its weight falls, and takes the body along.
+void BeyondMesh::addFace(const Face& face, const Solid& solid, double share, Outside& outside) const
 {
-    const Vec3 centre = solid.pose.position, toCentre = centre - face.corners[0];
+    const Vec3 toCentre = outside.centre - face.corners[0];
     const double radius = solid.radius(), end = toCentre.dot(face.normal) + radius;
     if (end <= 0 || (toCentre - toCentre.dot(face.normal)*face.normal).norm() > radius + 2*face.size) return;
-    const auto add = [&](const Vec3& f, const Vec3& at)
-    {
-        force += f;
-        moment += (at - centre).cross(f);
-    };
     const double area = face.area/points_.size();
     for (const FacePoint& shape : points_)
     {
         Vec3 x = Vec3::Zero();
         for (int k = 0; k < mesh_.dim; ++k) x += shape[k]*face.corners[k];
-        if (solid.distance(x) < 0) add(-at(shape, face.pressure)*area*face.normal, x);
+        if (solid.distance(x) < 0) outside.addForce(-at(shape, face.pressure)*area*face.normal, x);
         const Chord chord = chordIn(solid, x, face.normal, end, face.size/partsOfElement);
-        if (chord.length > 0) add(-share*density(face, shape)*chord.length*area*face.gravity, x + chord.moment/chord.length*face.normal);
+        if (chord.length <= 0) continue;
+        const double displaced = density(face, shape)*chord.length*area;
+        const Vec3 middle = x + chord.moment/chord.length*face.normal, fromMiddle = chord.length/std::sqrt(12.0)*face.normal;
+        outside.addForce(displaced*((1 - share)*outside.addedMass*face.gravity - share*face.gravity), middle);
+        for (const Vec3& half : {Vec3(middle - fromMiddle), Vec3(middle + fromMiddle)}) outside.addMass(displaced/2, half);
     }
 }
 
 /// Pressure has no moment about axes around which the solid turns into itself (rigidCoupling.hpp).
-void BeyondMesh::addSolid(const std::vector<Face>& faces, const Solid& solid, double share, double* load) const
+void BeyondMesh::addSolid(const std::vector<Face>& faces, const Solid& solid, double share, double* load, double* inertia) const
 {
-    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
-    for (const Face& face : faces) addFace(face, solid, share, force, moment);
-    moment -= solid.turning()*moment;
-    for (int d = 0; d < mesh_.dim; ++d) load[d] += force[mesh_.axes[d]];
-    if (mesh_.dim == 2) load[2] += moment[mesh_.axes[2]];
-    else for (int d = 0; d < 3; ++d) load[3 + d] += moment[d];
+    Outside outside;
+    outside.centre = solid.pose.position;
+    outside.isRotation = Eigen::Matrix3d::Identity() - solid.turning();
+    outside.addedMass = addedMass(mesh_, solid);
+    for (const Face& face : faces) addFace(face, solid, share, outside);
+    Eigen::Matrix<double, 6, 1> loads;
+    loads << outside.force, outside.isRotation*outside.moment;
+    const std::vector<int> place = placesInSpace(mesh_);
+    for (std::size_t r = 0; r < place.size(); ++r)
+    {
+        load[r] += loads[place[r]];
+        for (std::size_t c = 0; c < place.size(); ++c) inertia[r*place.size() + c] += outside.inertia(place[r], place[c]);
+    }
 }
 
 /// Of the fluid's weight along the patch what the prescribed pressure carries there, 0 to 1. Of the whole patch: in single faces that the surface crosses the linear
@@ -244,20 +324,18 @@ double BeyondMesh::weightShare(const std::vector<Face>& faces) const
 
 double BeyondMesh::density(const Face& face, const FacePoint& shape) const { return at(shape, face.side) > 0 ? fluid_.rhoLiquid : fluid_.rhoGas; }
 
-void BeyondMesh::addLoads(const FlowStepData& step, int nDof, std::vector<double>& loads) const
+void BeyondMesh::addLoads(const FlowStepData& step, int nDof, std::vector<double>& loads, std::vector<double>& inertia) const
 {
     const std::vector<Solid>& solids = *step.solids;
-    std::vector<double> ofFlow;
     for (const Passage& passage : passages_)
     {
         if (std::none_of(solids.begin(), solids.end(), [&](const Solid& solid) { return isReached(passage, solid); })) continue;
         const BoundaryPatch& patch = patches_[passage.patch];
         const bool isPrescribed = patch.pressure != BoundaryPatch::Pressure::Natural;
-        if (!isPrescribed && ofFlow.empty()) ofFlow = pressures(step);
-        const std::vector<Face> faces = makeFaces(step, patch, isPrescribed ? (*step.patchValues)[passage.patch].pressure : ofFlow);
+        const std::vector<Face> faces = makeFaces(step, patch, isPrescribed ? (*step.patchValues)[passage.patch].pressure : pressures(step, patch));
         const double share = isPrescribed ? weightShare(faces) : 1;
         for (std::size_t s = 0; s < solids.size(); ++s)
-            if (isReached(passage, solids[s])) addSolid(faces, trueShape(solids[s]), share, &loads[s*nDof]);
+            if (isReached(passage, solids[s])) addSolid(faces, trueShape(solids[s]), share, &loads[s*nDof], &inertia[s*nDof*nDof]);
     }
 }
 

@@ -7,8 +7,11 @@
 ///     - int p n_s dS (surface beyond the patch) = - int_patch (p n chi + G l) dA
 ///
 /// by the divergence theorem; chi: 1 where the patch's point lies in the body, l: length of the body on the line from there along n. Where the patch prescribes
-/// the pressure, p and G are those of the prescribed values (a free overfall, p = 0, carries nothing). Else p is the flow's, continued linearly into the body, and G
-/// the weight of the fluid at the patch. The viscous force, the added mass and a wake beyond the mesh are left out.
+/// the pressure, p and G are those of the prescribed values (a free overfall, p = 0, carries nothing). Else G is the weight of the fluid at the patch, and p that of water
+/// and gas at rest with the flow's mean at the patch, each by itself: not the flow's beside the body, which has the pressure by which the body's own acceleration is
+/// resisted on this side of the patch, and with that on the other side, too, a light body was driven on by what ought to hold it. The fluid there has to be moved by the body, too: without this inertia one of a hundredth of the fluid's density rose with a
+/// hundred times gravity as soon as it was outside. It is that of the displaced fluid, axis by axis times the ellipsoid's coefficient: with 1/a, 1/b, 1/c of half the body's
+/// extents 1/a/(1/b + 1/c) along the first (exact for elliptic cylinders and the sphere). Viscous forces and a wake beyond the mesh are left out.
 #pragma once
 
 #include "algebra/halo.hpp"
@@ -30,21 +33,24 @@ public:
     /// Whether a body may reach beyond one of these patches. The same on every rank.
     bool isReached(const std::vector<Solid>& solids) const;
 
-    /// Adds this rank's share of the loads to those of bodies, nDof numbers each: force, moment about the pose's position, 2D: per unit thickness. Collective.
-    void addLoads(const FlowStepData& step, int nDof, std::vector<double>& loads) const;
+    /// Adds this rank's share to what bodies have: nDof numbers each of loads (force, moment about the pose's position), nDof*nDof each of inertia, to be multiplied with the rate of
+    /// solidVelocity(); 2D: per unit thickness. Collective.
+    void addLoads(const FlowStepData& step, int nDof, std::vector<double>& loads, std::vector<double>& inertia) const;
 
 private:
     struct Face;
+    struct Outside;
     struct Passage { int patch; std::array<Vec3, 2> bounds; }; // patch: in patches_; bounds: of all of its faces, all ranks [m]
 
     bool isReached(const Passage& passage, const Solid& solid) const;
-    std::vector<double> pressures(const FlowStepData& step) const;
+    double side(const FlowStepData& step, int node) const;
+    std::vector<double> pressures(const FlowStepData& step, const BoundaryPatch& patch) const;
     Face makeFace(const FlowStepData& step, const BoundaryPatch& patch, std::size_t f, const std::vector<double>& pressure) const;
     std::vector<Face> makeFaces(const FlowStepData& step, const BoundaryPatch& patch, const std::vector<double>& pressure) const;
     double weightShare(const std::vector<Face>& faces) const;
     double density(const Face& face, const std::array<double, 3>& shape) const;
-    void addFace(const Face& face, const Solid& solid, double share, Vec3& force, Vec3& moment) const;
-    void addSolid(const std::vector<Face>& faces, const Solid& solid, double share, double* load) const;
+    void addFace(const Face& face, const Solid& solid, double share, Outside& outside) const;
+    void addSolid(const std::vector<Face>& faces, const Solid& solid, double share, double* load, double* inertia) const;
 
     const SimplexMesh& mesh_;
     const Halo& halo_;

@@ -25,6 +25,8 @@ struct FreeBody
     double mass = 0;                                    ///< [kg]
     Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();  ///< about the centre of mass, in the predicted orientation [kg m^2]
     Vec3 velocity = Vec3::Zero();                       ///< V^n [m/s]
+    Vec3 angularVelocity = Vec3::Zero();                ///< at t^n [rad/s]
+    Motion lastChange;                                  ///< of both in the last step's solve, over the step
     Vec3 angularMomentum = Vec3::Zero();                ///< L^n [kg m^2/s]
     Vec3 force = Vec3::Zero(), moment = Vec3::Zero();   ///< mean over the step of all loads but newLoadShare times the fluid's new one
     double newLoadShare = 1;                            ///< of the step's mean fluid load: see Fluid::newLoadShare()
@@ -46,6 +48,9 @@ public:
     /// Inertia and right-hand side of the free solids, by the change of velocity within the step, so that a DEM step with the same
     /// constant load ends at the solved velocity. bodies: one per solid of kind Free, in the order of the solids.
     void setFreeBodies(const std::vector<FreeBody>& bodies, double dt);
+
+    /// Adds to the solids' rows that of the fluid beyond the mesh which free ones move (BeyondMesh), as setFreeBodies() has taken it into their inertia. q: the solids' motions.
+    void addBeyondRows(const std::vector<double>& q, std::vector<double>& rows) const;
 
     /// Basins without a prescribed pressure: shifts those of x to the level of FluidProperties::pRefValue. Collective.
     void setPressureLevel(std::vector<double>& x);
@@ -86,6 +91,7 @@ private:
     template<int D> void coupleToNeighbours(int i, double value);
     template<int D> void assembleWalls();
     template<int D> void assembleOwnLoads();
+    void setBeyondInertia(std::size_t s, const FreeBody& body, double dt);
     template<int D> void addSurfaceLoad(const FacetPressure& facet);
     template<int D> void addFacetGroup(const FacetGroup<D>& group, const Solid& solid, const Turning<D>& turning, const double* q, SolidCoupling& coupling);
     template<int D> void sumSwept();
@@ -182,6 +188,8 @@ private:
     std::vector<int> layerSolid_;               // nNodes: whose share of the layers' content is 1 there
     std::vector<int> placeInSolid_;             // nNodes: in the coupling being assembled, else -1
     std::vector<double> ownLoads_;              // nDof of each solid: of the fluid besides the unknowns
+    std::vector<double> beyondInertia_;         // nDof*nDof of each solid: see BeyondMesh; empty: no solid reaches there
+    std::vector<double> beyondRate_, beyondHistory_; // of the free ones' rows: times that inertia and the motion; and without it (nDof each)
     std::vector<double> swept_;                 // owned nodes: what moving surfaces take from FlowSystem::inertia, a half [kg/s]
     std::vector<double> sweptOfCut_;            // that half at the corners of every cut element, negative where fluid appears
     std::vector<char> carriesMass_, isOpen_;    // nodes of varying elements; nodes on open patches

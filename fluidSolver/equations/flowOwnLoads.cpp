@@ -35,9 +35,51 @@ void FlowEquation::assembleOwnLoads()
     if (step_.surfacePressure)
         for (const FacetPressure& facet : *step_.surfacePressure) addSurfaceLoad<D>(facet);
     const bool isBeyond = step_.solids && beyond_.isReached(*step_.solids);
-    if (isBeyond) beyond_.addLoads(step_, nDof, ownLoads_);
+    beyondInertia_.assign(isBeyond ? ownLoads_.size()*nDof : 0, 0.0);
+    if (isBeyond)
+    {
+        beyond_.addLoads(step_, nDof, ownLoads_, beyondInertia_);
+        halo_.sum(beyondInertia_.data(), int(beyondInertia_.size()));
+    }
+    beyondRate_.assign(isBeyond ? step_.solids->size() : 0, 0.0);
+    beyondHistory_.assign(isBeyond ? ownLoads_.size() : 0, 0.0);
     if (step_.surfacePressure || !isLayerNode_.empty() || isBeyond || solidEdges_.isAny()) halo_.sum(ownLoads_.data(), int(ownLoads_.size()));
     for (std::size_t s = 0; s < system_.solids.size(); ++s) system_.solids[s].load.assign(&ownLoads_[s*nDof], &ownLoads_[s*nDof] + nDof);
+}
+
+/// Of the mean over the step as that of the body itself: what the last step's load has of it, a share of the mean, is made up for.
+void FlowEquation::setBeyondInertia(std::size_t s, const FreeBody& body, double dt)
+{
+    if (beyondInertia_.empty()) return;
+    const std::size_t n = system_.nDof;
+    SolidCoupling& solid = system_.solids[s];
+    const double* inertia = &beyondInertia_[s*n*n];
+    const double last = 1/body.newLoadShare - 1;
+    double start[6], change[6];
+    toDegreesOfFreedom(mesh_, {body.velocity, body.angularVelocity}, start);
+    toDegreesOfFreedom(mesh_, body.lastChange, change);
+    beyondRate_[s] = 1/(body.newLoadShare*dt);
+    for (std::size_t r = 0; r < n; ++r)
+    {
+        double& history = beyondHistory_[s*n + r] = 0;
+        for (std::size_t c = 0; c < n; ++c)
+        {
+            solid.inertia[r*n + c] += beyondRate_[s]*inertia[r*n + c];
+            history += inertia[r*n + c]*(beyondRate_[s]*start[c] + last*change[c]);
+        }
+        solid.rhs[r] += history;
+    }
+}
+
+void FlowEquation::addBeyondRows(const std::vector<double>& q, std::vector<double>& rows) const
+{
+    const std::size_t n = system_.nDof;
+    for (std::size_t s = 0; s < beyondRate_.size(); ++s)
+        for (std::size_t r = 0; r < n; ++r)
+        {
+            rows[s*n + r] -= beyondHistory_[s*n + r];
+            for (std::size_t c = 0; c < n; ++c) rows[s*n + r] += beyondRate_[s]*beyondInertia_[(s*n + r)*n + c]*q[s*n + c];
+        }
 }
 
 template void FlowEquation::assembleOwnLoads<2>();

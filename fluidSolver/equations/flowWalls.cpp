@@ -169,8 +169,9 @@ void FlowEquation::setFreeBodies(const std::vector<FreeBody>& bodies, double dt)
 {
     const int n = system_.nDof, dim = mesh_.dim;
     std::size_t f = 0;
-    for (SolidCoupling& solid : system_.solids)
+    for (std::size_t s = 0; s < system_.solids.size(); ++s)
     {
+        SolidCoupling& solid = system_.solids[s];
         if (!solid.isFree) continue;
         const FreeBody& body = bodies[f++];
         solid.inertia.assign(n*n, 0.0);
@@ -188,13 +189,13 @@ void FlowEquation::setFreeBodies(const std::vector<FreeBody>& bodies, double dt)
             const int axis = mesh_.axes[2];
             solid.inertia[2*n + 2] = scale*body.inertia(axis, axis)/dt;
             solid.rhs[2] += scale*(body.angularMomentum[axis]/dt + body.moment[axis]);
-            continue;
         }
-        for (int r = 0; r < 3; ++r)
+        for (int r = 0; r < 3 && dim == 3; ++r)
         {
             for (int c = 0; c < 3; ++c) solid.inertia[(3 + r)*n + 3 + c] = share*body.inertia(r, c)/dt;
             solid.rhs[3 + r] += share*(body.angularMomentum[r]/dt + body.moment[r]);
         }
+        setBeyondInertia(s, body, dt);
     }
 }
 

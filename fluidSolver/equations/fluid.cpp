@@ -229,6 +229,7 @@ std::vector<Fluid::SolidLoad> Fluid::solidLoads() const
     FlowOperator(graph_, halo_, system, mesh_.nOwned).solidRows(x_.data(), q_.data(), rows.data());
     for (std::size_t s = 0; s < system.solids.size(); ++s)
         for (int d = 0; d < system.nDof; ++d) rows[s*system.nDof + d] -= system.solids[s].load[d];
+    equation_.addBeyondRows(q_, rows);
     std::vector<SolidLoad> loads(system.solids.size(), {Vec3::Zero(), Vec3::Zero()});
     for (std::size_t s = 0; s < loads.size(); ++s)
     {

@@ -9,9 +9,11 @@ double planeOrientation(const SimplexMesh& mesh)
     return (mesh.axes[1] - mesh.axes[0] + 3) % 3 == 1 ? 1 : -1;
 }
 
-void solidVelocity(const SimplexMesh& mesh, const Solid& solid, double* q)
+void solidVelocity(const SimplexMesh& mesh, const Solid& solid, double* q) { toDegreesOfFreedom(mesh, solid.motion, q); }
+
+void toDegreesOfFreedom(const SimplexMesh& mesh, const Motion& motion, double* q)
 {
-    const Vec3 &v = solid.motion.velocity, &w = solid.motion.angularVelocity;
+    const Vec3 &v = motion.velocity, &w = motion.angularVelocity;
     if (mesh.dim == 2)
     {
         q[0] = v[mesh.axes[0]];

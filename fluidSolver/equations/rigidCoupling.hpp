@@ -15,7 +15,10 @@ namespace flotsam
 /// +1 when (axes[0], axes[1], axes[2]) of a 2D mesh is a right-handed order of x, y, z, else -1.
 double planeOrientation(const SimplexMesh& mesh);
 
-/// Motion of a solid as the system's degrees of freedom q (3 in 2D: in-plane velocity, rotation about the empty axis; 6 in 3D).
+/// A motion as the system's degrees of freedom q (3 in 2D: in-plane velocity, rotation about the empty axis; 6 in 3D).
+void toDegreesOfFreedom(const SimplexMesh& mesh, const Motion& motion, double* q);
+
+/// That of a solid.
 void solidVelocity(const SimplexMesh& mesh, const Solid& solid, double* q);
 
 /// Solid::turning() by the system's rotations.

@@ -18,7 +18,7 @@ namespace
 {
 
 const std::string magic = "flotsam checkpoint";
-constexpr std::int64_t formatVersion = 8;
+constexpr std::int64_t formatVersion = 9;
 
 using Field = std::vector<double> FlowState::*;
 struct NamedField { const char* name; Field field; };

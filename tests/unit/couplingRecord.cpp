@@ -33,6 +33,7 @@ CouplingRecord makeRecord()
     CouplingRecord record;
     for (auto* loads : {&record.lastLoads, &record.contact, &record.guess}) loads->resize(2);
     record.wallLoads.resize(3);
+    record.lastChanges.resize(2);
     record.shares.resize(2);
     record.smooth.resize(26);
     record.isHeld.resize(2);
@@ -46,7 +47,7 @@ CouplingRecord makeRecord()
 
 TEST_CASE("what is written of a record is what is read, in the files' order")
 {
-    std::vector<double> numbers(6*(3 + 3*2) + 2*36 + 26 + 2 + 2 + 2 + 3 + 1);
+    std::vector<double> numbers(6*(3 + 4*2) + 2*36 + 26 + 2 + 2 + 2 + 3 + 1);
     for (std::size_t k = 0; k < numbers.size(); ++k) numbers[k] = 1 + double(k % 100); // flags are characters
     CouplingRecord record = makeRecord();
     NumberReader reader(numbers.data());
@@ -54,7 +55,8 @@ TEST_CASE("what is written of a record is what is read, in the files' order")
     CHECK(numbersOf(record) == numbers);
     CHECK(record.wallLoads[1].moment[0] == 10);
     CHECK(record.lastLoads[0].force[0] == 19);
-    CHECK(record.shares[0](1, 0) == 56);
+    CHECK(record.lastChanges[1].angularVelocity[2] == 42);
+    CHECK(record.shares[0](1, 0) == 68);
     CHECK(record.largestOverlap == numbers.back());
 }
 
