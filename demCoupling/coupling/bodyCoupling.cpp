@@ -115,7 +115,6 @@ void BodyCoupling::begin(double time, double dt, double far)
 {
     dt_ = dt;
     iteration_.begin(dt);
-    guessAtStart_ = contactGuess();
     sharesAtStart_ = answer_.shares();
     probes_.begin();
     touchAtStart_ = touch_;
@@ -124,6 +123,7 @@ void BodyCoupling::begin(double time, double dt, double far)
     for (int b = 0; b < nBodies(); ++b) held[b] = !isDue(b, time) || !isThere(b);
     isAtStart_ = true;
     hold(held);
+    guessAtStart_ = contactGuess();
     moveTo(time + dt);
     guarded([&] { saved_ = engine_->save(); });
     for (int b = 0; b < nBodies(); ++b) predicted_[b] = isHeld_[b] ? states_[b] : drifted(b);
@@ -168,7 +168,7 @@ void BodyCoupling::predictContacts()
         if (!newContact_[b].isZero()) predicted_[b].pose = result_[b].pose;
 }
 
-/// A body that is let go has its velocity at once, for the fluid too.
+/// A body that is let go has its velocity at once, for the fluid too. What it was pressed by while it was held, what held it took: an impact would go on in its first step.
 void BodyCoupling::hold(const std::vector<char>& isHeld)
 {
     if (isHeld == isHeld_) return;
@@ -178,12 +178,15 @@ void BodyCoupling::hold(const std::vector<char>& isHeld)
         result_ = engine_->states();
     });
     shareResults();
+    std::vector<Load> guess = contactGuess();
     for (int b = 0; b < nBodies(); ++b)
     {
         if (isHeld[b] == isHeld_[b]) continue;
         smooth_->reset(b, states_[b] = result_[b]);
         isJustReleased_[b] = !isHeld[b];
+        guess[b] = contact_[b] = smoothing_[b] = Load();
     }
+    iteration_.setGuess(guess);
     isHeld_ = isHeld;
 }
 

@@ -233,6 +233,30 @@ TEST_CASE("a bar is held until its release, then has its velocity; out of the me
     CHECK(run.records()[0].motion.velocity.norm() == 0);
 }
 
+// such a blow went on in the first step of the body's freedom, which ended tens of elements from where it was predicted
+TEST_CASE("a blow that a body has while it is held does not push it when it is let go")
+{
+    Channel channel;
+    BodyDefinition light = makeBar(10, Vec3(1, 0.5, 0.5)), heavy = makeBar(20000, Vec3(1 - side - 0.013, 0.5, 0.5));
+    light.releaseTime = 0.01;
+    heavy.name = "heavy";
+    heavy.motion.velocity = Vec3(2, 0, 0);
+    DemSetup dem = makeDem(light, 1.9);
+    dem.laws[0].stiffness = 1e10; // the blow is over within the step
+    dem.bodies.push_back(heavy);
+    CoupledStep run(channel.mesh, channel.halo, channel.fluid, channel.controls, channel.patches, Scene({}, dem.bodies, Vec3::Zero()), &dem,
+        channel.timers);
+    run.start(channel.rest(), true);
+    for (int k = 0; k < 2; ++k) REQUIRE(run.step(0.005).isAccepted);
+    REQUIRE(run.records()[0].contactForce.norm() > 1000);
+    REQUIRE(run.records()[0].pose.position[0] == 1);
+    REQUIRE(run.records()[1].motion.velocity[0] < 0);
+    const StepResult result = run.step(0.005);
+    CHECK(result.failure == "");
+    CHECK(run.coupling()->predicted()[0].pose.position[0] == 1);
+    CHECK(std::abs(run.records()[0].motion.velocity[0]) < 1);
+}
+
 TEST_CASE("after a restart the contacts are those that were: of the bar and of what it touches")
 {
     Channel channel;
