@@ -29,6 +29,8 @@ class SceneCase:
         parts.append(files.oneFluid(s.mu[0] / s.rho[0], s.rho[0]) if s.oneFluid else files.twoFluids(s.mu[0] / s.rho[0], s.mu[1] / s.rho[1], *s.rho))
         if s.bodies or s.structures:
             parts.append(files.bodies(self._solids()))
+        if s.outlet == "level":
+            parts.append(files.referenceHeight(s.inflowDepth * s.length))
         return files.merged(*parts, s.files, {"system/fvSolution": files.dictionary("fvSolution", "flotsam { " + " ".join(s.options) + " }")})
 
     def parameters(self, _run):
@@ -74,6 +76,10 @@ class SceneCase:
         p = {"walls": "type fixedFluxPressure; value uniform 0;", "top": "type totalPressure; p0 uniform 0; value uniform 0;", "frontAndBack": "empty",
              "outlet": "type prghTotalPressure; p0 uniform 0; value uniform 0;" if not s.oneFluid else "type totalPressure; p0 uniform 0; value uniform 0;",
              "inlet": "type fixedFluxPressure; value uniform 0;"}
+        if s.outlet == "velocity":
+            u["outlet"], p["outlet"] = self._inlet(), p["inlet"]
+        elif s.outlet == "level":
+            p["outlet"] = "type fixedValue; value uniform 0;"
         a = {"walls": "zeroGradient", "frontAndBack": "empty", **{name: f"type inletOutlet; inletValue uniform {value}; value uniform {value};"
                                                                    for name, value in (("top", 0), ("outlet", 0), ("inlet", 1))}}
         names = self._patches()
@@ -120,8 +126,11 @@ class SceneCase:
         text += "structures\n{\n" + "".join(self._solid(x, x.entries + m) for x, m in zip(s.structures, motions)) + "}\n"
         text += "bodies\n{\n"
         for b in s.bodies:
-            text += self._solid(b, f"density {b.density:.9g}; velocity {_vector(b.velocity)}; angularVelocity {_vector(b.spin)}; releaseTime {b.release:.6g};")
-        return text + "}\n"
+            text += self._solid(b, f"density {b.density:.9g}; velocity {_vector(b.velocity)}; angularVelocity {_vector(b.spin)}; releaseTime {b.release:.6g}; {b.entries}")
+        text += "}\n"
+        if s.restraints:
+            text += "restraints\n{\n" + "".join(f"    {line(s.length, s.speed)}\n" for line in s.restraints) + "}\n"
+        return text
 
     def _solid(self, x, entries):
         s = self.scene

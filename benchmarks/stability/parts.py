@@ -23,7 +23,7 @@ class Solid:
     velocity: np.ndarray = field(default_factory=lambda: np.zeros(3))
     spin: np.ndarray = field(default_factory=lambda: np.zeros(3))
     release: float = 0
-    entries: str = ""       # of a structure
+    entries: str = ""
 
 
 @dataclass
@@ -45,9 +45,11 @@ class Scene:
     openTop: bool = True
     inflow: float = 0                   # speed over the lowest part `inflowDepth` of the left side, which is then open on the right
     inflowDepth: float = 0
+    outlet: str = "overfall"            # level: that of inflowDepth is kept; velocity: that of the inlet is prescribed
     liquid: list = field(default_factory=list)      # (function of points -> bool, velocity)
     structures: list = field(default_factory=list)
     bodies: list = field(default_factory=list)
+    restraints: list = field(default_factory=list)  # function of length and speed -> text
     options: list = field(default_factory=list)     # entries of the dictionary flotsam
     maxCo: float = 0.5
     maxBodyCo: float = 0.5

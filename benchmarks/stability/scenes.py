@@ -9,7 +9,9 @@ import math
 import jam
 import numpy as np
 import parts
+import passing
 import shapes
+import tied
 
 
 def tank(s):
@@ -188,7 +190,7 @@ def threeD(s):
 
 FAMILIES = {f.__name__: f for f in (tank, damBreak, splash, channel, thrown, deep, structures, moving, oneFluid, options, bigSteps, properties, threeD)}
 
-APART = {"jam": jam.jam, "shapes": shapes.shapes}      # do not take turns: more than a minute each, and the numbers of the others stay
+APART = {"jam": jam.jam, "shapes": shapes.shapes, "passing": passing.passing, "tied": tied.tied}      # do not take turns: more than a minute each, and the numbers of the others stay
 
 
 def familyOf(number):
