@@ -329,6 +329,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
 
 int main(int argc, char* argv[])
 {
+    flotsam::checkCasePath(argc, argv);
     Foam::argList::addNote
     (
         "Driftwood and debris in a free-surface flow: stabilised P1 finite cover method with LIGGGHTS rigid bodies.\n"
@@ -340,25 +341,19 @@ int main(int argc, char* argv[])
     if (!args.checkRootCase()) Foam::FatalError.exit();
 
     flotsam::endOnErrors();
-    const auto end = [](const std::exception& error) { FatalErrorInFunction << error.what() << Foam::exit(Foam::FatalError); };
-    try
-    {
-        flotsam::checkFileHandler(args.rootPath()/args.globalCaseName());
-        const Foam::dictionary controlDict = flotsam::readControlDict(args.rootPath()/args.globalCaseName()/"system"/Foam::Time::controlDictName);
-        flotsam::checkTimeEntries(controlDict);
-        if (const std::string doubt = flotsam::doubtfulWriting(controlDict); !doubt.empty()) Foam::Info<< "Warning: " << doubt.c_str() << Foam::nl;
-        flotsam::checkLatestTimes(args.path(), controlDict);
-        Foam::Time runTime(Foam::Time::controlDictName, args);
-        flotsam::checkMesh(runTime);
-        Foam::fvMesh mesh
-        (
-            Foam::IOobject(Foam::fvMesh::defaultRegion, runTime.timeName(), runTime, Foam::IOobject::MUST_READ)
-        );
-        using flotsam::Task;
-        if (flotsam::run(runTime, mesh, args.found("dry-run") ? Task::Check : args.found("cell-cost") ? Task::WeighCells : Task::Run))
-            Foam::Info<< "End\n" << Foam::endl;
-    }
-    catch (const std::runtime_error& error) { end(error); }     // not OpenFOAM's, see endOnErrors
-    catch (const std::logic_error& error) { end(error); }
+    flotsam::checkFileHandler(args.rootPath()/args.globalCaseName());
+    const Foam::dictionary controlDict = flotsam::readControlDict(args.rootPath()/args.globalCaseName()/"system"/Foam::Time::controlDictName);
+    flotsam::checkTimeEntries(controlDict);
+    flotsam::checkLatestTimes(args.path(), controlDict);
+    Foam::Time runTime(Foam::Time::controlDictName, args);
+    if (const std::string doubt = flotsam::doubtfulWriting(controlDict, runTime.value()); !doubt.empty()) Foam::Info<< "Warning: " << doubt.c_str() << Foam::nl;
+    flotsam::checkMesh(runTime);
+    Foam::fvMesh mesh
+    (
+        Foam::IOobject(Foam::fvMesh::defaultRegion, runTime.timeName(), runTime, Foam::IOobject::MUST_READ)
+    );
+    using flotsam::Task;
+    if (flotsam::run(runTime, mesh, args.found("dry-run") ? Task::Check : args.found("cell-cost") ? Task::WeighCells : Task::Run))
+        Foam::Info<< "End\n" << Foam::endl;
     return 0;
 }

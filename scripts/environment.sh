@@ -3,6 +3,7 @@
 # Sourced (bash) by every script: where things are, and what OpenFOAM and Open MPI need to run.
 flotsamRoot=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 flotsamBuild=${FLOTSAM_BUILD:-$flotsamRoot/build}
+[ -d "$flotsamBuild" ] || [ ! -x "$flotsamRoot/../../bin/flotsamFoam" ] || flotsamBuild=$(cd "$flotsamRoot/../.." && pwd)    # installed
 export PATH="$flotsamBuild/bin:$flotsamRoot/scripts:$PATH"
 
 # Debian's OpenFOAM programs find their etc/ folder by this alone

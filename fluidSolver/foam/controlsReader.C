@@ -314,13 +314,12 @@ void checkTimeEntries(const Foam::dictionary& controlDict)
     readFlagOr(controlDict, "adjustTimeStep", false);
 }
 
-std::string doubtfulWriting(const Foam::dictionary& controlDict)
+std::string doubtfulWriting(const Foam::dictionary& controlDict, double start)
 {
     constexpr double most = 1e5;
     const bool isTimed = isWord(controlDict, "writeControl", "adjustableRunTime", false) || isWord(controlDict, "writeControl", "adjustable", false) || isWord(controlDict, "writeControl", "runTime", false);
     if (!isTimed || !controlDict.found("writeInterval") || !controlDict.found("endTime")) return "";
-    const double interval = readNumber(controlDict, "writeInterval", positive), end = readAs<Foam::scalar>(controlDict, "endTime", "a number"),
-        start = controlDict.found("startTime") ? readAs<Foam::scalar>(controlDict, "startTime", "a number") : 0;
+    const double interval = readNumber(controlDict, "writeInterval", positive), end = readAs<Foam::scalar>(controlDict, "endTime", "a number");
     if ((end - start)/interval <= most) return "";
     return text("writeInterval ", interval, " s of system/controlDict makes ", (end - start)/interval, " time folders until endTime, ", end,
         " s, and with writeControl adjustableRunTime no step is longer. It is in s of the run");

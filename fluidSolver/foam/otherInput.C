@@ -9,6 +9,10 @@
 #include "processorPolyPatch.H"
 
 #include <algorithm>
+#include <climits>
+#include <cstdlib>
+#include <iostream>
+#include <unistd.h>
 
 namespace flotsam
 {
@@ -70,6 +74,20 @@ std::string describeStray(const std::vector<std::string>& strays, const Foam::po
         described.push_back(text("'", stray, "'", meant.empty() ? "" : text(" (of ", meant.front(), "?)")));
     }
     return joined(described);
+}
+
+void checkCasePath(int argc, char* const* argv)
+{
+    const auto isRead = [](const std::string& path) { return std::all_of(path.begin(), path.end(), Foam::fileName::valid); };
+    char folder[PATH_MAX] = "";
+    const char* const logical = std::getenv("PWD");     // which OpenFOAM prefers: a link may lead here
+    std::string path = getcwd(folder, sizeof folder) && !(logical && isRead(logical)) ? folder : "";
+    for (int i = 1; i + 1 < argc; ++i)
+        if (std::string(argv[i]) == "-case") path = isRead(path) ? argv[i + 1] : path;
+    if (isRead(path)) return;
+    std::cerr << "flotsamFoam: the folder " << path << " has a blank or a quote in its path, which OpenFOAM's programs cannot read. Rename it, or work in a link to it:"
+        "  ln -s \"" << path << "\" ~/case; cd ~/case" << std::endl;
+    std::exit(1);
 }
 
 void checkFileHandler(const Foam::fileName& folder)

@@ -27,7 +27,18 @@ std::string lastHdf5Error()
 {
     std::string text;
     H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keepFirst, &text);
-    return text.empty() ? "no reason given" : text;
+    const std::string mark = "error message = '"; // of the operating system, among much that says nothing to a user
+    const std::size_t begin = text.find(mark);
+    if (begin == std::string::npos) return text.empty() ? "no reason given" : text;
+    const std::size_t word = begin + mark.size();
+    return text.substr(word, text.find('\'', word) - word);
+}
+
+/// A file that could not be closed (the disk is full) makes HDF5 crash where it ends with the program, after the message that says so. Before the first call of HDF5.
+void endWithoutHdf5()
+{
+    static const herr_t done = H5dont_atexit();
+    (void)done;
 }
 
 herr_t collectName(hid_t, const char* name, const H5L_info_t*, void* list)
@@ -68,6 +79,7 @@ constexpr hsize_t arrayBlock = 1 << 17; // values per checksummed block: 1 MiB
 Hdf5File::Hdf5File(const std::string& file, Mode mode, const std::string& preamble)
 :   file_(file), preamble_(preamble)
 {
+    endWithoutHdf5();
     const Hdf5Silence silence;
     const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);

@@ -225,9 +225,9 @@ TEST_CASE("controlDict: times that are no numbers, and far more time folders tha
     CHECK(has(message("deltaT 0.01; endTime 4; startFrom startTime;"), "'startTime' is missing"));
     CHECK(has(message("deltaT 0.01; endTime 4; adjustTimeStep maybe;"), "'adjustTimeStep' is 'maybe', but must be on or off"));
     CHECK(has(message("deltaT 0.01; endTime 4; writeInterval 0;"), "'writeInterval' is 0"));
-    const auto doubt = [](const std::string& contents) { return doubtfulWriting(parse("endTime 4; " + contents)); };
+    const auto doubt = [](const std::string& contents, double start = 0) { return doubtfulWriting(parse("endTime 4; " + contents), start); };
     CHECK(doubt("writeControl adjustableRunTime; writeInterval 0.001;").empty());
     CHECK(doubt("writeControl timeStep; writeInterval 1;").empty());
     CHECK(has(doubt("writeControl adjustableRunTime; writeInterval 1e-7;"), "writeInterval 1e-07 s of system/controlDict makes 4e+07 time folders"));
-    CHECK(doubt("writeControl adjustableRunTime; writeInterval 1e-7; startTime 3.9999;").empty());
+    CHECK(doubt("writeControl adjustableRunTime; writeInterval 1e-7;", 3.9999).empty());     // whatever startTime says: startFrom latestTime
 }
