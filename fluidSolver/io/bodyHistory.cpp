@@ -120,6 +120,7 @@ struct BodyHistory::Implementation
     bool continueUndamaged(double startTime);
     bool continueFrom(double startTime);
     void checkMembers(const Hdf5File& out) const;
+    void checkAlone(const Hdf5File& out) const;
     void flushTo(Hdf5File& out);
     void flush();
 };
@@ -233,8 +234,17 @@ bool BodyHistory::Implementation::continueFrom(double startTime)
     return true;
 }
 
+/// Two runs in one folder would mix up every file of theirs, in silence.
+void BodyHistory::Implementation::checkAlone(const Hdf5File& out) const
+{
+    if (const std::size_t there = out.rows("/run/time"); there != rowsInFile)
+        throw std::runtime_error(file + " has " + std::to_string(there) + " records, of which this run knows " + std::to_string(rowsInFile)
+            + ": another run writes into the same folder. This one ends; let the other go on, or end it and start again");
+}
+
 void BodyHistory::Implementation::flushTo(Hdf5File& out)
 {
+    checkAlone(out);
     const std::size_t n = times.size();
     std::vector<double> column;
     for (std::size_t m = 0; m < members.size(); ++m)

@@ -202,6 +202,21 @@ TEST_CASE("a reader that keeps the file open does not disturb the run")
     CHECK(read(file, "/run/time").size() == 2);
 }
 
+TEST_CASE("of two runs in one folder one ends")
+{
+    const TemporaryFolder folder("twoRuns");
+    const std::string file = folder / "bodies.h5";
+    BodyHistory first(file, members(), 0);
+    first.append(1, recordsAt(1, 2), {});
+    first.flush();
+    BodyHistory second(file, members(), 0);
+    second.append(0.5, recordsAt(0.5, 2), {});
+    second.append(1, recordsAt(1, 2), {});
+    second.flush();
+    first.append(2, recordsAt(2, 2), {});
+    CHECK_THROWS_WITH(first.flush(), doctest::Contains("has 2 records, of which this run knows 1: another run writes into the same folder"));
+}
+
 TEST_CASE("the surface moves with its member")
 {
     const TemporaryFolder folder("historySurface");
