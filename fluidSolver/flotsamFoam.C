@@ -174,6 +174,14 @@ double firstStep(const Foam::Time& runTime, const CaseControls& controls, const 
 /// A step shorter than this part of the wanted one is said to be so because of the write time at which it ends; others are what the flow, the bodies or maxDeltaT make them.
 constexpr double mostlyCut = 0.8;
 
+/// Of what the patches let in.
+std::vector<TimeJump> flowJumps(const std::vector<BoundaryPatch>& boundary)
+{
+    std::vector<TimeJump> jumps;
+    for (const BoundaryPatch& patch : boundary) jumps.insert(jumps.end(), patch.jumps.begin(), patch.jumps.end());
+    return jumps;
+}
+
 /// As OpenFOAM's solvers, the run does not write at its end.
 void warnUnwritten(const Foam::Time& runTime, const WriteTimes& writeTimes)
 {
@@ -270,7 +278,8 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     if (!bodies.structures.empty())
         reportThinStructures(adapter.mesh, step.fluid().graph(), halo, *step.cover(), bodies, step.scene().solids().size());
     reportPatches(controls, adapter, halo, boundary, step.fluid().state(), step.cover(), runTime.value(), runTime.endTime().value());
-    WriteTimes writeTimes(runTime, output.firstStart(), output.lastStep(), controls.time.adjustTimeStep ? motionJumps(bodies) : std::vector<double>());
+    const bool isAdjusted = controls.time.adjustTimeStep;
+    WriteTimes writeTimes(runTime, output.firstStart(), output.lastStep(), isAdjusted ? motionJumps(bodies) : std::vector<double>(), isAdjusted ? flowJumps(boundary) : std::vector<TimeJump>());
     output.begin(step);
     fields.begin(step.cover());
     WallForceFiles forceFiles(runTime, adapter.mesh, wallForces);

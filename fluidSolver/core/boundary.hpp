@@ -2,6 +2,8 @@
 /// Boundary conditions of the fluid as the kernels see them: plain kinds and nodal values, no dictionaries.
 #pragma once
 
+#include "core/timeJump.hpp"
+
 #include <functional>
 #include <string>
 #include <vector>
@@ -51,6 +53,8 @@ struct BoundaryPatch
     bool isWall() const { return velocity == Velocity::Slip || velocity == Velocity::NoSlip; }
 
     std::vector<int> nodes;         ///< local nodes of the patch (owned and halo), ascending
+
+    std::vector<TimeJump> jumps;    ///< of a prescribed velocity over time
 
     /// Fills the values for a time. Collective (may sum over ranks).
     std::function<void(const BoundaryState&, PatchValues&)> evaluate;

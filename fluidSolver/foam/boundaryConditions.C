@@ -5,6 +5,7 @@
 #include "foam/faceValues.H"
 #include "foam/fieldEntry.H"
 #include "foam/innerPoints.H"
+#include "foam/tableJumps.H"
 
 #include "equations/materials.hpp"
 
@@ -134,7 +135,7 @@ NodalValues uniformScalars(const ConditionInput& in, const char* keyword)
 
 // ---- velocity
 
-VelocityCondition fixedVelocity(NodalValues values) { return {BoundaryPatch::Velocity::Fixed, std::move(values), {}}; }
+VelocityCondition fixedVelocity(NodalValues values, std::vector<TimeJump> jumps = {}) { return {BoundaryPatch::Velocity::Fixed, std::move(values), {}, std::move(jumps)}; }
 
 VelocityCondition noSlip(const ConditionInput& in)
 {
@@ -148,16 +149,17 @@ VelocityCondition fixedValueVelocity(const ConditionInput& in)
 
 VelocityCondition uniformVelocity(const ConditionInput& in)
 {
-    return fixedVelocity([f = timeFunction<vector>(in.dict, "uniformValue"), n = in.nodes](const BoundaryState& state, std::vector<double>& out)
+    const auto f = timeFunction<vector>(in.dict, "uniformValue");
+    return fixedVelocity([f, n = in.nodes](const BoundaryState& state, std::vector<double>& out)
     {
         const auto u = inPlane(*n->mesh, f->value(state.time));
         out.clear();
         for (std::size_t i = 0; i < n->nodes.size(); ++i) out.insert(out.end(), u.begin(), u.end());
-    });
+    }, tableJumps(*f));
 }
 
-VelocityCondition slip(const ConditionInput&) { return {BoundaryPatch::Velocity::Slip, {}, {}}; }
-VelocityCondition open(const ConditionInput&) { return {BoundaryPatch::Velocity::Open, {}, {}}; }
+VelocityCondition slip(const ConditionInput&) { return {BoundaryPatch::Velocity::Slip, {}, {}, {}}; }
+VelocityCondition open(const ConditionInput&) { return {BoundaryPatch::Velocity::Open, {}, {}, {}}; }
 
 /// Normal inflow `flow` through what solids leave of the patch, split over the nodes as `weight`; of the P1 flux `share` counts, as it does for the transport.
 void distributeFlow(const PatchNodes& patch, const Halo& halo, double flow, const std::vector<double>& weight, const std::vector<double>& share,
@@ -183,9 +185,10 @@ VelocityCondition flowRateVelocity(const ConditionInput& in)
         failIn(in.dict, "massFlowRate is not available: give volumetricFlowRate [m^3/s] (mass flow rate over density).");
     if (in.dict.getOrDefault<bool>("extrapolateProfile", false))
         failIn(in.dict, "extrapolateProfile yes is not available: the velocity is uniform over the patch. Remove the entry.");
-    return fixedVelocity([f = timeFunction<scalar>(in.dict, "volumetricFlowRate"), n = in.nodes, &halo = in.halo,
+    const auto f = timeFunction<scalar>(in.dict, "volumetricFlowRate");
+    return fixedVelocity([f, n = in.nodes, &halo = in.halo,
         all = std::vector<double>(in.nodes->nodes.size(), 1.0), name = in.patch.name()](const BoundaryState& state, std::vector<double>& out)
-        { distributeFlow(*n, halo, f->value(state.time), all, all, state.cover, name, out); });
+        { distributeFlow(*n, halo, f->value(state.time), all, all, state.cover, name, out); }, tableJumps(*f));
 }
 
 /// Share of the inlet's velocity that the nodes of a patch have where `liquid` enters: all of it where a node or one that shares a face with it has a fifth of liquid, so that
@@ -204,13 +207,14 @@ VelocityCondition variableHeightVelocity(const ConditionInput& in)
     if (in.controls.alphaName.empty()) failIn(in.dict, "variableHeightFlowRateInletVelocity needs two fluids; use flowRateInletVelocity.");
     if (alpha != in.controls.alphaName)
         failIn(in.dict, text("Entry 'alpha' is ", alpha, "; the phase field of this case is ", in.controls.alphaName, "."));
-    const auto flow = [f = timeFunction<scalar>(in.dict, "flowRate")](double time) { return f->value(time); };
+    const auto f = timeFunction<scalar>(in.dict, "flowRate");
+    const auto flow = [f](double time) { return f->value(time); };
     VelocityCondition condition = fixedVelocity([flow, n = in.nodes, &halo = in.halo, name = in.patch.name()](const BoundaryState& state, std::vector<double>& out)
     {
         std::vector<double> liquid; // the surface's nodes let gas in as well: what counts is the liquid
         for (std::size_t k = 0; k < n->nodes.size(); ++k) liquid.push_back(std::clamp(state.entering ? state.entering[k] : state.alpha[n->nodes[k]], 0.0, 1.0));
         distributeFlow(*n, halo, flow(state.time), shareOfVelocity(*n, halo, liquid), liquid, state.cover, name, out);
-    });
+    }, tableJumps(*f));
     condition.liquidInflow = flow;
     return condition;
 }

@@ -221,6 +221,7 @@ std::vector<BoundaryPatch> readBoundary(const Foam::polyMesh& mesh, const MeshAd
         out.pressure = p.kind;
         out.phase = a.kind;
         out.nodes = sources[i].nodes->nodes;
+        out.jumps = u.jumps;
         out.evaluate = evaluator(u, p.values, a.values);
         checkCombination(out, velocity.patch(patch), pressure.patch(patch), pressureName);
         result.push_back(std::move(out));

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace flotsam
 {
@@ -24,6 +23,8 @@ struct ClockAccess : Foam::Time
 
 constexpr double excess = 0.01;    // of the wanted step that a step may take besides to end at a write time, as Time's own
 constexpr double nothing = 1e-6;    // of a step: a jump so near has been met
+constexpr const char* inflow = "inflow";
+constexpr double least = 0.1;       // of the wanted step: none is made shorter for what is let in
 constexpr double few = 2;           // steps before a jump from which on they are made to meet it: none is less than half as long as wanted
 
 /// The longest step of at most `wanted` of which a whole number lies in `left`; all in s.
@@ -40,27 +41,42 @@ double count(const Foam::Time& clock, double first, double time, double step)
 
 } // namespace
 
-WriteTimes::WriteTimes(Foam::Time& clock, double first, double lastStep, std::vector<double> jumps)
-:   clock_(clock), first_(first), time_(clock.value()), lastStep_(lastStep), jumps_(std::move(jumps))
-{}
+WriteTimes::WriteTimes(Foam::Time& clock, double first, double lastStep, const std::vector<double>& motions, const std::vector<TimeJump>& flows)
+:   clock_(clock), first_(first), time_(clock.value()), lastStep_(lastStep)
+{
+    for (const double time : motions) jumps_.push_back({{time, 0}, "motion"});
+    for (const TimeJump& flow : flows) jumps_.push_back({flow, inflow});
+}
+
+bool WriteTimes::isBehindInflow() const
+{
+    const auto isBehind = [this](const Jump& jump)
+    {
+        const double since = time_ - jump.at.time;
+        return jump.word == inflow && jump.at.length <= lastStep_ && (std::abs(since) < nothing*lastStep_ || std::abs(since - lastStep_) < nothing*lastStep_);
+    };
+    return std::any_of(jumps_.begin(), jumps_.end(), isBehind);
+}
 
 double WriteTimes::setStep(double wanted)
 {
+    if (isBehindInflow()) wanted = std::min(wanted, lastStep_);
     double step = wanted;
     if (ClockAccess::isAdjusted(clock_))
     {
         const double left = first_ + (count(clock_, first_, time_, lastStep_) + 1)*ClockAccess::interval(clock_) - time_;
         step = wholeSteps(left, wanted);
     }
-    isToJump_ = false;
-    for (const double jump : jumps_)
+    reason_ = "write";
+    for (const Jump& jump : jumps_)
     {
-        const double left = jump - time_;
-        if (left < nothing*step || left > few*step) continue;
+        const double left = jump.at.time - time_;
+        const bool isNear = jump.word == inflow && left < least*wanted; // at the start: no step before it can be shorter
+        if (left < nothing*step || left > few*step || jump.at.length > wanted || isNear) continue;
         const double shorter = wholeSteps(left, wanted);
         if (shorter >= step) continue;
         step = shorter;
-        isToJump_ = true;
+        reason_ = jump.word;
     }
     clock_.setDeltaT(step, false);
     clock_.functionObjects().adjustTimeStep();

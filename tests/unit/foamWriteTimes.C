@@ -15,6 +15,7 @@ namespace
 {
 
 constexpr double interval = 0.1, begin = 0.23, shortest = 0.03, longest = 0.05;
+const std::vector<TimeJump> flows{{1.234, 0.01}, {1.45, 0.2}, {begin + 1e-3, 1e-4}};    // the second is longer than any step, the third too near the start
 const std::vector<double> jumps{0.1, begin, 0.5, 0.63, 0.6302, 1.0111, 2.2};   // some before the run, at write times or beside each other
 
 struct Record
@@ -35,7 +36,7 @@ public:
         records_(past)
     {
         if (!past.empty()) clock_.setTime(past.back().time, Foam::label(past.size()));
-        times_ = std::make_unique<WriteTimes>(clock_, begin, past.empty() ? 0 : past.back().step, jumps);
+        times_ = std::make_unique<WriteTimes>(clock_, begin, past.empty() ? 0 : past.back().step, jumps, flows);
     }
 
     std::vector<Record> to(std::size_t nSteps)
@@ -89,6 +90,18 @@ TEST_CASE("steps end at jumps, by none that is less than half as long as wanted 
         const auto isShort = [](const Record& r) { return r.step < 0.5*shortest; };
         CHECK(std::count_if(records.begin(), records.end(), isShort) <= (control == std::string("adjustableRunTime") ? 4 : 1));
     }
+}
+
+TEST_CASE("the steps beside a jump of what is let in are of one length, unless a write time is between; jumps longer than a step are left alone")
+{
+    const std::vector<Record> records = Run("runTime").to(80);
+    const auto at = std::find_if(records.begin(), records.end(), [](const Record& r) { return std::abs(r.time - flows[0].time) < 1e-13; });
+    REQUIRE(at != records.end());
+    CHECK(at->step >= 0.5*shortest);
+    CHECK((at + 1)->step == near(at->step, 1e-9));
+    CHECK((at + 2)->step == near(at->step, 1e-9));
+    CHECK(std::none_of(records.begin(), records.end(), [](const Record& r) { return std::abs(r.time - flows[1].time) < 1e-6; }));
+    CHECK(std::none_of(records.begin(), records.end(), [](const Record& r) { return std::abs(r.time - flows[2].time) < 1e-6; }));
 }
 
 TEST_CASE("adjusted steps end at the write times, others beside them; each counts once")
