@@ -49,6 +49,21 @@ restraints
 }
 END
 fixedSteps hanging 0.002 0.3 10
+makeCase damBreak house
+python - > house/system/blockMeshDict << 'PY'
+point = lambda i, j, k: i + 4 * (j + 4 * k)
+print("FoamFile { version 2.0; format ascii; class dictionary; object blockMeshDict; } vertices (",
+      *(f"({i} {j} {k})" for k in range(3) for j in range(4) for i in range(4)), "); blocks (")
+for i, j, k in ((i, j, k) for k in range(2) for j in range(3) for i in range(3) if (i, j, k) != (1, 1, 0)):
+    corners = " ".join(str(point(i + a, j + b, k + c)) for c in (0, 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1)))
+    print(f"hex ({corners}) (1 1 1) simpleGrading (1 1 1)")
+top = " ".join(f"({point(i, j, 2)} {point(i + 1, j, 2)} {point(i + 1, j + 1, 2)} {point(i, j + 1, 2)})" for i in range(3) for j in range(3))
+print("); boundary ( atmosphere { type patch; faces (", top, "); } ); defaultPatch { name walls; type wall; }")
+PY
+sed -i 's/(0 -9.81 0)/(0 0 -9.81)/' house/constant/g
+sed -i '/boundaryField/,$d' house/0/alpha.water
+echo 'boundaryField { ".*" { type zeroGradient; } }' >> house/0/alpha.water
+(cd house && quietly blockMesh && quietly setFields && rm -r 0/U 0/p_rgh) || exit
 for name in jam bar bank hanging; do
     (cd $name && solve 1) || exit
     (cd $name && quietly "$report") || exit
@@ -112,5 +127,18 @@ for name, pictures in (("jam", ["series.png", "scene_0.05s.png"]), ("bar", ["ser
         checks.check(f"{name}: {picture} [kB at least 5]", float(os.path.getsize(f"{folder}/{picture}") > 5000), 1, 0)
         if name != "jam":   # the page of jam is that of the second call
             checks.check(f"{name}: {picture} on its page", float(f"({picture})" in text), 1, 0)
+
+# walls within the box of the mesh (a building): its four sides and its roof, none of the box's own
+import flotsamScene  # noqa: E402
+import patchSurfaces  # noqa: E402
+
+walls = patchSurfaces.innerWalls("house", 0, flotsam.grid("house", 0).GetBounds())
+checks.check("faces of the house", walls.GetNumberOfCells(), 5, 0)
+checks.check("its height", walls.GetBounds()[5], 1, 1e-6)
+checks.check("inner walls of a box", float(patchSurfaces.innerWalls("bar", 0, flotsam.grid("bar", 0).GetBounds()) is None), 1, 0)
+for name, axis in (("house", 2), ("bar", 1)):
+    checks.check(f"{name}: the vertical", flotsam.verticalAxis(name), axis, 0)
+flotsamScene.renderScene("house", 0, "house.png")
+flotsamScene.renderField2d("bar", 0, "bar.png")
 sys.exit(checks.count())
 PY

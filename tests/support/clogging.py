@@ -48,6 +48,14 @@ class Clogging(unittest.TestCase):
         h = History(time, ways, come={"late": 6.0, "never": 99.0}, gone={"goes": 6.0, "strays": 1.0})
         direction = clogging.streamDirection(h)
         np.testing.assert_array_equal(direction, DOWNSTREAM)
+        falling = History(time, {"falls": lambda t: SPEED * t})     # longest 5: gets no farther than it is long
+        np.testing.assert_array_equal(clogging.streamDirection(falling, 1), DOWNSTREAM)
+        for axis, far, expected in ((0, 6.0, np.eye(3)[0]), (0, 4.0, DOWNSTREAM), (2, -6.0, -np.eye(3)[2])):
+            falling["bodies/falls"].position[:, [0, 2]] = 0
+            falling["bodies/falls"].position[:, 1] = -10 * time / time[-1]
+            falling["bodies/falls"].position[:, axis] = far * time / time[-1]
+            np.testing.assert_array_equal(clogging.streamDirection(falling, 1), expected)
+            np.testing.assert_array_equal(clogging.streamDirection(falling), DOWNSTREAM)
         zone = clogging.zoneOf(h, h.structures, direction)
         np.testing.assert_allclose(zone, (1.9, 2.0))
         fate = clogging.fates(h, zone, direction)
@@ -134,6 +142,7 @@ class Clogging(unittest.TestCase):
         np.testing.assert_array_equal(fate(["line"]).held[:, -1], [True] * 4 + [False])
 
     def test_confidence(self):
+        self.assertEqual((str(clogging.confidence(0, 2)[0]), str(clogging.confidence(2, 2)[1])), ("0.0", "1.0"))
         np.testing.assert_allclose(clogging.confidence(8, 10), (0.49016, 0.94332), atol=2e-5)    # Wilson 1927
         for held in (0, 7):
             low, high = clogging.confidence(held, 7)

@@ -36,7 +36,7 @@ def arguments():
 
 def evaluate(h, series, options):
     """All figures of the report, as in report.json, and what became of the bodies. series: of forces, by name."""
-    direction = AXES[options.direction] if options.direction else clogging.streamDirection(h)
+    direction = AXES[options.direction] if options.direction else clogging.streamDirection(h, flotsam.verticalAxis(options.case))
     holders = clogging.chosen(h, options.structures)
     zone = clogging.Zone(options.at, options.at) if options.at is not None else clogging.zoneOf(h, holders.structures, direction)
     if options.structures and h.bodies and not zone:

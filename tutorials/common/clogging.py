@@ -44,13 +44,17 @@ def chosen(h, wanted):
     return contactNetwork.Holders(*found)
 
 
-def streamDirection(h):
-    """The axis, and the sense along it, in which bodies come farthest, all together; ups and downs count, too, where no body gets anywhere else."""
-    way = np.zeros(3)
+def streamDirection(h, vertical=None):
+    """The axis, and the sense along it, in which bodies come farthest, all together. Along the vertical (an axis) they fall into the stream, or are lifted by it: that counts only
+    where they get no farther than they are long otherwise."""
+    way, length = np.zeros(3), 0.0
     for name in h.bodies:
         came = np.flatnonzero(h["bodies/" + name].awaited < 0.5)
         if len(came):
             way += h["bodies/" + name].position[-1] - h["bodies/" + name].position[came[0]]
+            length += h["bodies/" + name].longest
+    if vertical is not None and np.abs(np.delete(way, vertical)).max() > length:
+        way[vertical] = 0
     axis = np.argmax(np.abs(way))
     return np.sign(way[axis] or 1) * np.eye(3)[axis]
 
@@ -112,7 +116,7 @@ def confidence(held, came):
     share, spread = held / came, z * z / came
     middle = (share + 0.5 * spread) / (1 + spread)
     half = z / (1 + spread) * np.sqrt(share * (1 - share) / came + 0.25 * spread / came)
-    return middle - half, middle + half
+    return max(0.0, middle - half), min(1.0, middle + half)     # round-off shows as -0 %
 
 
 # --- forces -----------------------------------------------------------------------------------------------------------

@@ -153,6 +153,20 @@ def emptyAxis(case):
     return int(np.argmin([bounds[2 * d + 1] - bounds[2 * d] for d in range(3)]))
 
 
+def verticalAxis(case):
+    """The axis that gravity acts along most, by constant/g; None without gravity."""
+    file = next((name for name in (os.path.join(folder, "constant", "g") for folder in [case, *_processors(case)]) if os.path.isfile(name)), None)
+    if file is None:
+        return None
+    with open(file, encoding="utf-8", errors="replace") as text:
+        found = re.search(r"value\s*(?:uniform\s*)?\(\s*(\S+)\s+(\S+)\s+([^\s)]+)\s*\)", text.read())
+    try:
+        g = np.abs([float(component) for component in found.groups()]) if found else np.zeros(3)
+    except ValueError:  # $gravity, #calc: what OpenFOAM makes of it is not known here
+        return None
+    return int(np.argmax(g)) if g.any() else None
+
+
 def _array(data, name, what):
     if not data.HasArray(name):
         known = ", ".join(sorted(data.GetArrayName(i) for i in range(data.GetNumberOfArrays())))

@@ -15,6 +15,7 @@ import vtkmodules.all as vtk
 from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 
 import flotsam
+import patchSurfaces
 
 COLOURS = {"water": (0.20, 0.47, 0.75), "body": (0.52, 0.33, 0.16), "structure": (0.55, 0.56, 0.58),
            "line": (0.75, 0.10, 0.10), "floor": (0.86, 0.82, 0.74), "text": (0.10, 0.10, 0.10)}
@@ -153,40 +154,18 @@ def _floor(bounds, up):
     return plane.GetOutput()
 
 
-def _patches(case, time, names):
-    """Surfaces of mesh patches (a sloping or stepped bed)."""
-    join = vtk.vtkAppendPolyData()
-    for folder in flotsam._parts(case, time):
-        reader = vtk.vtkOpenFOAMReader()
-        reader.SetFileName(os.path.join(folder, "any.foam"))
-        reader.UpdateInformation()
-        known = [reader.GetPatchArrayName(i) for i in range(reader.GetNumberOfPatchArrays())]
-        reader.DisableAllPatchArrays()
-        for name in names:
-            if "patch/" + name not in known:
-                patches = ", ".join(k[6:] for k in known if k.startswith("patch/"))
-                raise flotsam.CaseError(f"{case}: no patch {name}; there are: {patches}")
-            reader.SetPatchArrayStatus("patch/" + name, 1)
-        reader.UpdateTimeStep(time)
-        collect = vtk.vtkCompositeDataGeometryFilter()
-        collect.SetInputConnection(reader.GetOutputPort())
-        collect.Update()
-        join.AddInputData(collect.GetOutput())
-    join.Update()
-    return join.GetOutput()
-
-
 # --- three dimensions -------------------------------------------------------------------------------------------------
 
 def renderScene(case, time, file, camera="perspective", bounds=None, size=(1600, 900), zoom=1.0, up=2, history=None,
                 patches=None, floor=True, waterOpacity=0.45, title=None, colours=None, alpha=flotsam.ALPHA):
-    """Writes a PNG of the scene at the written time nearest to `time`: water, bodies (brown), structures (grey), restraints (red lines), floor.
+    """Writes a PNG of the scene at the written time nearest to `time`: water, bodies (brown), structures (grey), restraints (red lines), floor, walls of the mesh
+    within its box (buildings, steps, banks).
 
     camera   one of DIRECTIONS, or (dx, dy, dz) from the scene to the eye, or a dict with position, focus[, viewUp]
     bounds   (xmin, xmax, ymin, ymax, zmin, zmax) the camera frames; default: the whole mesh
     zoom     > 1 comes nearer
     history  a flotsam.History; default: the case's, where it has one
-    patches  names of mesh patches to draw as the floor instead of the bottom of the domain's box
+    patches  names of mesh patches to draw as the floor instead of the bottom of the domain's box and the walls within it
     title    text in the upper left corner; default: the time; "" for none
     colours  {member name: (r, g, b)} for single bodies or structures
     Returns the written time that is shown.
@@ -202,8 +181,13 @@ def renderScene(case, time, file, camera="perspective", bounds=None, size=(1600,
     renderer.SetBackground2(0.80, 0.87, 0.94)
     renderer.GradientBackgroundOn()
     if floor:
-        ground = _patches(case, time, patches) if patches else _floor(mesh.GetBounds(), up)
+        ground = patchSurfaces.ofPatches(case, time, patches) if patches else _floor(mesh.GetBounds(), up)
         renderer.AddActor(_actor(ground, COLOURS["floor"]))
+    inner = patchSurfaces.innerWalls(case, time, mesh.GetBounds()) if floor and not patches else None
+    if inner:
+        actor = _actor(inner, COLOURS["floor"])
+        actor.GetProperty().FrontfaceCullingOn()    # normals point out of the fluid: walls between it and the eye are not drawn
+        renderer.AddActor(actor)
     for name, isStructure, data in memberSurfaces(history, time) if history else []:
         colour = (colours or {}).get(name, COLOURS["structure" if isStructure else "body"])
         renderer.AddActor(_actor(data, colour, smooth=True))
@@ -351,8 +335,8 @@ def renderField2d(case, time, file, field=flotsam.ALPHA, normal=2, limits=None, 
     axes2d = [d for d in range(3) if d != normal]
     figure, axes = plt.subplots(figsize=size, dpi=150)
     faces = PolyCollection(polygons, array=values, cmap=colourMap, edgecolors="face", linewidths=0.2)
-    if limits:
-        faces.set_clim(*limits)
+    if limits or field.startswith("alpha."):
+        faces.set_clim(*(limits or (0, 1)))
     axes.add_collection(faces)
     if history is None and flotsam.historyFile(case):
         history = flotsam.history(case)
