@@ -2,6 +2,7 @@
 #include "demCoupling/foam/restraintOutput.H"
 
 #include "foam/dictionaryChecks.H"
+#include "io/textFile.hpp"
 
 #include "OSspecific.H"
 
@@ -94,9 +95,10 @@ void RestraintOutput::record(double time, const std::vector<RestraintLoad>& load
             extreme.brokenAt = time;
             Foam::Info<< text("t = ", time, " s: restraint ", restraints_[i].name, " is broken: its force exceeded ", restraints_[i].breakingForce, " N").c_str() << Foam::endl;
         }
-        if (!files_.empty())
-            files_[i] << formatted("%-18.12g %18.10e %18.10e %18.10e %18.10e %18.10e %18.10e %6d", time, load.force[0], load.force[1], load.force[2], load.tension, load.largest,
-                load.length, int(load.isBroken)) << std::endl;
+        if (files_.empty()) continue;
+        files_[i] << formatted("%-18.12g %18.10e %18.10e %18.10e %18.10e %18.10e %18.10e %6d", time, load.force[0], load.force[1], load.force[2], load.tension, load.largest,
+            load.length, int(load.isBroken)) << std::endl;
+        checkWritten(files_[i], "postProcessing/restraints, " + restraints_[i].name);
     }
 }
 

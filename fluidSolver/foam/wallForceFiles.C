@@ -2,6 +2,8 @@
 #include "foam/dictionaryChecks.H"
 #include "foam/wallForces.H"
 
+#include "io/textFile.hpp"
+
 #include "OSspecific.H"
 
 #include <cmath>
@@ -34,7 +36,7 @@ std::string header(const WallForceGroup& group, const SimplexMesh& mesh, bool is
     return s + '\n';
 }
 
-void writeLine(std::ofstream& file, double time, std::vector<Vec3> values)
+void writeLine(std::ofstream& file, const std::string& name, double time, std::vector<Vec3> values)
 {
     values.insert(values.begin(), values[0] + values[1] + values[2]);
     char column[40];
@@ -47,6 +49,7 @@ void writeLine(std::ofstream& file, double time, std::vector<Vec3> values)
             line += column;
         }
     file << line << std::endl;  // with what it takes to be read while the run goes on
+    checkWritten(file, "postProcessing/" + name);
 }
 
 /// Of a 2D mesh that in its plane alone, as the fluid's.
@@ -104,8 +107,8 @@ void WallForceFiles::write(double time, double dt, const std::vector<PatchForce>
         const Vec3 fluid = f.pressure + f.friction;
         statistics_.add(g, dt, fluid.data(), contact[g].force.data(), contact[g].peak.data());
         const auto about = [&](const Vec3& moment, const Vec3& force) { return inPlane(moment - groups_[g].origin.cross(force), mesh_); };
-        writeLine(files_[g].force, time, {f.pressure, f.friction, contact[g].force, contact[g].peak});
-        writeLine(files_[g].moment, time, {about(f.pressureMoment, f.pressure), about(f.frictionMoment, f.friction), about(contact[g].moment, contact[g].force)});
+        writeLine(files_[g].force, groups_[g].name + ", force", time, {f.pressure, f.friction, contact[g].force, contact[g].peak});
+        writeLine(files_[g].moment, groups_[g].name + ", moment", time, {about(f.pressureMoment, f.pressure), about(f.frictionMoment, f.friction), about(contact[g].moment, contact[g].force)});
     }
 }
 

@@ -39,6 +39,14 @@ code=$?
 [ "$(grep -c 'FOAM FATAL' log.full)" -eq 1 ] || fail "a full disk: not one message"
 rm -r bar/0.2   # as the next start would say
 
+# nor for the lines of wallForces: all later ones would be missing
+rm -rf walls log.full && cp -r bar walls && rm walls/constant/bodies
+setEntry walls/system/controlDict writeInterval 100
+echo 'wallForces { tank { patches (walls); } }' >> walls/system/controlDict
+full walls
+code=$?
+[ $code -eq 1 ] && grep -q 'postProcessing/tank, force: cannot write the file to disk (File too large)$' log.full || fail "no room for forces: exit code $code, $(tail -n 30 log.full)"
+
 # apart from the folder that it was built in
 rm -rf installed && quietly cmake --install "$FLOTSAM_BUILD" --prefix "$work/installed"
 (cd bar && env -i HOME="$work" PATH="$work/installed/bin:/usr/bin:/bin" WM_PROJECT_DIR="$WM_PROJECT_DIR" flotsamFoam -dry-run) > log.installed 2>&1 || fail "the installed program: $(tail log.installed)"
