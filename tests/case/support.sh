@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # shellcheck shell=bash
 # Sourced by the case tests: small cases made from the tutorials, in the build folder ($FLOTSAM_BUILD, set by case.cmake).
+export LC_ALL=C    # awk writes decimal points
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 . "$here/../../scripts/environment.sh"
 tutorials=$flotsamRoot/tutorials
