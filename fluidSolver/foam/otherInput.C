@@ -117,7 +117,10 @@ void checkLatestTimes(const Foam::fileName& folder, const Foam::dictionary& cont
     const auto byValue = [](const Foam::instant& a, const Foam::instant& b) { return a.name().empty() || (!b.name().empty() && a.value() < b.value()); };
     const auto [first, end] = std::minmax_element(latest.begin(), latest.end(), byValue);
     if (first->equal(end->value()) && first->name().empty() == end->name().empty()) return;
-    const auto of = [&](const Foam::instant* t) { return text("processor", t - latest.begin(), first->name().empty() && t == first ? " has none" : text(" has ", std::string(t->name()))); };
+    if (first->name().empty())  // not one that a run that was killed has left: all have the start
+        failOnAll(text("Folder ", std::string(folder.path()), "/processor", first - latest.begin(), " is missing, or has no time folder; processor", end - latest.begin(), " has time ", std::string(end->name()), ".\n"
+            "    Decompose anew (decomposePar -force), with as many subdomains as processes are started."));
+    const auto of = [&](const Foam::instant* t) { return text("processor", t - latest.begin(), " has ", std::string(t->name())); };
     failOnAll(text("The processor folders have different latest times: ", of(end), ", ", of(first), ". A run that was killed while it wrote leaves them so.\n"
         "    Remove what not all have (rm -r processor*/", std::string(end->name()), ") to go on from the time before, or decompose anew (decomposePar -force)."));
 }

@@ -218,6 +218,11 @@ setEntry differing/system/controlDict startFrom latestTime
     timeout 60 mpirun -np 2 flotsamFoam -parallel) > differing.log 2>&1 && fail "processes with different latest times are accepted"
 [ "$(grep -c 'FOAM FATAL' differing.log)" -eq 1 ] || fail "processes with different latest times: not said once"
 grep -q 'different latest times: processor0 has 0.3, processor1 has 0.2\. ' differing.log && grep -q 'rm -r processor\*/0.3' differing.log || fail "processes with different latest times: no word"
+# a folder that is not there was not left so: to remove the start of the others would not help
+rm -r differing/processor0/0.[23] differing/processor1
+(cd differing && timeout 60 mpirun -np 2 flotsamFoam -parallel) > differing.log 2>&1 && fail "a processor folder that is missing is accepted"
+[ "$(grep -c 'FOAM FATAL' differing.log)" -eq 1 ] && grep -q 'differing/processor1 is missing, or has no time folder; processor0 has time 0\.' differing.log && ! grep -q 'rm -r' differing.log \
+    || fail "a processor folder that is missing: $(tail -n 30 differing.log)"
 
 # a gate that comes down on a bar on the bed: said when it happens, and the run that it ends names the gate
 makeFloatingBar clamped
