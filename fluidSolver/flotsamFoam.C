@@ -6,6 +6,7 @@
 #include "demCoupling/coupling/coupledStep.hpp"
 #include "demCoupling/foam/bodiesReader.H"
 #include "demCoupling/foam/bodyChecks.H"
+#include "demCoupling/foam/continuedMembers.H"
 #include "demCoupling/foam/continuedMotion.H"
 #include "demCoupling/foam/restraintReader.H"
 #include "demCoupling/foam/runOutput.H"
@@ -144,11 +145,22 @@ void reportAnew(const CaseControls& controls, const SimplexMesh& mesh, const Hal
     for (const std::string& late : doubtfulStart(bodies, state.time)) Foam::Info<< "Warning: " << late.c_str() << Foam::nl;
 }
 
-/// Start of the run, which takes the clock along: the state stored at the start time, or its fields where there is none; report: of these.
-template<class Report>
-void start(CoupledStep& step, RunOutput& output, const FoamFields& fields, Foam::Time& runTime, Report report)
+/// What a run that goes on begins with besides: bodies and structures that its state does not have.
+void reportAdded(const CaseControls& controls, const SimplexMesh& mesh, const Halo& halo, const BodiesInput& bodies, const FlowState& state, const StoredMembers& stored)
 {
-    if (!output.readState(step, fields))
+    const BodiesInput added = addedPart(bodies, stored);
+    const std::string doubt = bodyInStream(added, mesh, halo, controls.fluid, state, state.time);
+    if (!doubt.empty()) Foam::Info<< "Warning: " << doubt.c_str() << Foam::nl;
+    for (const std::string& late : doubtfulStart(added, state.time)) Foam::Info<< "Warning: " << late.c_str() << Foam::nl;
+}
+
+/// Start of the run, which takes the clock along: the state stored at the start time, or its fields where there is none; report: of these;
+/// reportMore: of what the state does not have.
+template<class Report, class ReportMore>
+void start(CoupledStep& step, RunOutput& output, const FoamFields& fields, Foam::Time& runTime, Report report, ReportMore reportMore)
+{
+    if (output.readState(step, fields)) reportMore(step.fluid().state());
+    else
     {
         FlowState state;
         state.time = runTime.value();
@@ -255,11 +267,14 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     if (task == Task::Check)
     {
         warnLaterTimes(runTime);
-        const bool isContinued = RunOutput(runTime, adapter.mesh, halo, controls.fluid, bodies, timers).checkStart();
+        RunOutput output(runTime, adapter.mesh, halo, controls.fluid, bodies, timers);
+        const bool isContinued = output.checkStart();
         checkThinStructures(adapter, halo, bodies);
         FlowState state;
         fields.readStart(state);
-        if (!isContinued) report(state);
+        state.time = runTime.value();
+        if (isContinued) reportAdded(controls, adapter.mesh, halo, bodies, state, output.stored());
+        else report(state);
         fitFirstStep(runTime, controls.time, !isContinued);
         reportEnded(runTime);
         checkInflow(adapter, halo, boundary, state, nullptr, runTime.value());
@@ -273,7 +288,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     CoupledStep step(adapter.mesh, halo, controls.fluid, controls.numerics, boundary, makeScene(bodies, gravity),
         bodies.bodies.empty() ? nullptr : &dem, timers);
     RunOutput output(runTime, adapter.mesh, halo, controls.fluid, bodies, timers);
-    start(step, output, fields, runTime, report);
+    start(step, output, fields, runTime, report, [&](const FlowState& state) { reportAdded(controls, adapter.mesh, halo, bodies, state, output.stored()); });
     warnLaterTimes(runTime);
     if (!bodies.structures.empty())
         reportThinStructures(adapter.mesh, step.fluid().graph(), halo, *step.cover(), bodies, step.scene().solids().size());

@@ -341,14 +341,24 @@ std::vector<double> BodyCoupling::save() const
     return data;
 }
 
-void BodyCoupling::restore(const std::vector<double>& data)
+void BodyCoupling::restore(const std::vector<double>& data, const StoredMembers& known)
 {
-    CouplingRecord stored = record(); // for the lengths
+    isJustReleased_ = areNew(known.bodies, nBodies()); // no load of theirs has been before
+    if (known.bodies.empty()) return;
+    const CouplingRecord fresh = record();
+    CouplingRecord stored = recordOf(known.bodies, fresh);  // for the lengths
     const std::size_t tail = numbersOf(stored).size();
     if (data.size() < tail) throw std::runtime_error("restart: the stored state of the bodies is too short for this case");
     const std::size_t engineSize = data.size() - tail;
     NumberReader reader(data.data() + engineSize);
     passRecord(reader, stored);
+    const DemState engine{std::vector<double>(data.begin(), data.begin() + std::ptrdiff_t(engineSize))};
+    const bool areAllKnown = int(known.bodies.size()) == nBodies() && known.restraints.size() == setup_.restraints.size();
+    restore(recordWith(known.bodies, stored, fresh), [&] { areAllKnown ? engine_->restore(engine) : engine_->restore(engine, known); });
+}
+
+void BodyCoupling::restore(const CouplingRecord& stored, const std::function<void()>& restoreEngine)
+{
     lastLoads_ = stored.lastLoads;
     lastChanges_ = stored.lastChanges;
     contact_ = stored.contact;
@@ -360,7 +370,7 @@ void BodyCoupling::restore(const std::vector<double>& data)
     guarded([&]
     {
         engine_->setHeld(isHeld_);
-        engine_->restore(DemState{std::vector<double>(data.begin(), data.begin() + std::ptrdiff_t(engineSize))});
+        restoreEngine();
         result_ = engine_->states();
         touch_.restraints = engine_->restraintLoads();
         newContact_.assign(newContact_.size(), Load());

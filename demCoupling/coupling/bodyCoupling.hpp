@@ -108,12 +108,14 @@ public:
 
     /// Everything that continues the run exactly, and back. Collective; the same on every rank.
     std::vector<double> save() const;
-    void restore(const std::vector<double>& data);
+    /// known: those that the state has (none: data is not read); the others begin, in an object that has not made a step.
+    void restore(const std::vector<double>& data, const StoredMembers& known);
 
 private:
     void runEngine(double duration, const std::vector<Load>& loads);
     void shareResults();
     CouplingRecord record() const;
+    void restore(const CouplingRecord& stored, const std::function<void()>& restoreEngine);
     BodyState drifted(int body) const;
     double largestSpringSpeed() const;
     void predictContacts();

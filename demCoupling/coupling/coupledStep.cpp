@@ -56,18 +56,9 @@ void CoupledStep::start(FlowState state, bool isSharp)
     const double time = state.time;
     fluid_.start(std::move(state), isSharp);
     scene_.place(time, coupling_.get());
-    for (int k = 0; k < 3; ++k) cut(k == 2); // the volume correction takes a few passes from nothing
+    for (int k = 1; k <= cutsFromNothing; ++k) cut(k == cutsFromNothing);
     wet_ = fluid_.wetFractions();
     loads_.assign(scene_.solids().size(), {Vec3::Zero(), Vec3::Zero()});
-}
-
-/// Of the scene's poses and offsets exactly: no further correction of volumes. hasChanged: as Fluid::setGeometry().
-void CoupledStep::restoreGeometry(bool hasChanged)
-{
-    if (scene_.isEmpty()) return;
-    PhaseTimer t(timers_, Phase::Cut);
-    builder_->chooseThin(scene_.solids());
-    fluid_.setGeometry(&builder_->build(scene_.solids()), &scene_.solids(), hasChanged);
 }
 
 StepResult CoupledStep::step(double dt)
@@ -295,56 +286,6 @@ void CoupledStep::forgetUnwritten()
 {
     fluid_.forgetUnwritten();
     forgetContact();
-}
-
-CoupledStep::Arrays CoupledStep::save() const
-{
-    Arrays arrays;
-    arrays["liquid"] = {fluid_.keptLiquid()};
-    if (scene_.isEmpty()) return arrays;
-    arrays["solids"] = scene_.save();
-    std::vector<double> loads;
-    for (const auto& l : loads_)
-        for (const Vec3* v : {&l.force, &l.moment}) loads.insert(loads.end(), v->data(), v->data() + 3);
-    arrays["fluidLoads"] = loads;
-    if (coupling_) arrays["bodies"] = coupling_->save();
-    return arrays;
-}
-
-CoupledStep::Arrays CoupledStep::saveOfProcess() const
-{
-    Arrays arrays{{"massFluxes", fluid_.massFluxes().records()}, {"remainder", fluid_.state().remainder}};
-    if (!scene_.isEmpty()) arrays["ghostFluxes"] = fluid_.ghostFluxes();
-    return arrays;
-}
-
-void CoupledStep::restore(FlowState state, const Arrays& arrays, Fields fields)
-{
-    fluid_.start(std::move(state), fields == Fields::Cells);
-    auto array = [&](const char* name) -> const std::vector<double>&
-    {
-        const auto at = arrays.find(name);
-        if (at == arrays.end()) throw std::runtime_error(std::string("restart: the stored state has no '") + name
-            + "'; it was written by a run without solids or bodies");
-        return at->second;
-    };
-    if (fields != Fields::Cells) fluid_.setKeptLiquid(array("liquid").at(0));
-    if (fields == Fields::Exact)
-    {
-        fluid_.massFluxes().setRecords(array("massFluxes"));
-        const auto left = arrays.find("remainder"); // states of older versions have none
-        if (left != arrays.end()) fluid_.setRemainder(left->second);
-    }
-    if (scene_.isEmpty()) return;
-    scene_.restore(array("solids"));
-    if (fields == Fields::Exact) fluid_.setGhostFluxes(array("ghostFluxes"));
-    const std::vector<double>& loads = array("fluidLoads");
-    loads_.assign(scene_.solids().size(), {Vec3::Zero(), Vec3::Zero()});
-    for (std::size_t s = 0; s < loads_.size() && 6*s + 5 < loads.size(); ++s)
-        for (int d = 0; d < 3; ++d) { loads_[s].force[d] = loads[6*s + d]; loads_[s].moment[d] = loads[6*s + 3 + d]; }
-    if (coupling_) coupling_->restore(array("bodies"));
-    restoreGeometry(fields == Fields::Cells);
-    wet_ = fluid_.wetFractions();
 }
 
 } // namespace flotsam

@@ -74,9 +74,19 @@ public:
         Cells   ///< that as read from cells, as for start()
     };
     void restore(FlowState state, const Arrays& arrays, Fields fields);
+    /// Of a run without some of the solids, bodies and restraints: these begin, where the definitions have them at this time, in an object that has not made a step.
+    void restore(FlowState state, const Arrays& arrays, Fields fields, const StoredMembers& stored);
+    /// Liquid (of one fluid: the volume of it) that gave way to them there [m^3].
+    double displaced() const { return displaced_; }
 
 private:
+    /// The volume correction takes a few passes from nothing.
+    static constexpr int cutsFromNothing = 3;
+
     void cut(bool hasChanged);
+    void restoreFluid(FlowState state, const Arrays& arrays, Fields fields);
+    void putIn(const std::vector<char>& isNew);
+    const Cover& cutNew(const std::vector<char>& isNew);
     void restoreGeometry(bool hasChanged = false);
     double smallestCutElement() const;  ///< [m]; huge where nothing is cut
     SolveReport solveFlow(StepResult& result, double enough);
@@ -100,6 +110,7 @@ private:
     std::vector<std::string> waiting_;      // of the step to come
     std::vector<Fluid::SolidLoad> loads_;   // fluid loads of the last solve
     std::vector<double> wet_;
+    double displaced_ = 0;
     double contactChange_ = 0;  // residual over the right-hand side that the first new contact load of the last step left; 0: there was none
     int contactRepeats_ = 0;    // new contact loads in the last step
     const bool cutsNeedlessly_, assemblesNeedlessly_;   // see algebra/needlessWork.hpp

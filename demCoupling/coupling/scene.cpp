@@ -40,16 +40,30 @@ void Scene::place(double time, const BodyCoupling* coupling)
 {
     for (std::size_t s = 0; s < structures_.size(); ++s)
         if (structures_[s].motion) structures_[s].motion(time, solids_[s].pose, solids_[s].motion);
-    for (std::size_t b = 0; coupling && b < bodies_.size(); ++b)
+    for (std::size_t b = 0; coupling && b < bodies_.size(); ++b) placeBody(b, *coupling);
+}
+
+void Scene::placeBody(std::size_t b, const BodyCoupling& coupling)
+{
+    Solid& solid = solids_[structures_.size() + b];
+    const BodyState& state = coupling.predicted()[b];
+    // a held body is an obstacle at rest
+    solid.kind = coupling.isHeld(int(b)) ? Solid::Kind::Prescribed : Solid::Kind::Free;
+    solid.pose = state.pose;
+    solid.motion = coupling.isHeld(int(b)) ? Motion() : state.motion;
+    if (!coupling.isThere(int(b))) solid.pose.position.setConstant(farAway);
+}
+
+void Scene::begin(double time, const BodyCoupling* coupling, const std::vector<char>& which)
+{
+    for (std::size_t s = 0; s < structures_.size(); ++s)
     {
-        Solid& solid = solids_[structures_.size() + b];
-        const BodyState& state = coupling->predicted()[b];
-        // a held body is an obstacle at rest
-        solid.kind = coupling->isHeld(int(b)) ? Solid::Kind::Prescribed : Solid::Kind::Free;
-        solid.pose = state.pose;
-        solid.motion = coupling->isHeld(int(b)) ? Motion() : state.motion;
-        if (!coupling->isThere(int(b))) solid.pose.position.setConstant(farAway);
+        if (!which[s]) continue;
+        solids_[s].pose = structures_[s].solid.pose;
+        if (structures_[s].motion) structures_[s].motion(time, solids_[s].pose, solids_[s].motion);
     }
+    for (std::size_t b = 0; coupling && b < bodies_.size(); ++b)
+        if (which[structures_.size() + b]) placeBody(b, *coupling);
 }
 
 std::vector<FreeBody> Scene::freeBodies(const BodyCoupling& coupling, double newLoadShare) const
@@ -156,19 +170,30 @@ std::vector<Solid> Scene::stored(const std::vector<double>& data)
 
 void Scene::restore(const std::vector<double>& data)
 {
+    restore(data, StoredMembers::all(nStructures(), nBodies(), 0).solids(nStructures()));
+}
+
+void Scene::restore(const std::vector<double>& data, const std::vector<int>& known)
+{
     const std::vector<Solid> was = stored(data);
-    if (was.size() != solids_.size())
+    if (was.size() != known.size())
         throw std::runtime_error("restart: the stored state has " + std::to_string(was.size())
-            + " solids, the case has " + std::to_string(solids_.size()) + "; restart with the constant/bodies of the first run");
+            + " solids, the case has " + std::to_string(known.size()) + "; restart with the constant/bodies of the first run");
     for (std::size_t k = 0; k < was.size(); ++k)
     {
-        Solid& s = solids_[k];
+        Solid& s = solids_[known[k]];
         s.pose = was[k].pose;
         s.motion = was[k].motion;
         s.offset = was[k].offset;
         s.offsetSlope = was[k].offsetSlope;
         s.kind = was[k].kind;
     }
+}
+
+void Scene::hide(const std::vector<char>& areHidden)
+{
+    for (std::size_t s = 0; s < solids_.size(); ++s)
+        if (areHidden[s]) solids_[s].pose.position.setConstant(farAway);
 }
 
 } // namespace flotsam

@@ -66,10 +66,16 @@ public:
     /// Poses, motions and offsets of all solids as numbers, and back (checkpoint).
     std::vector<double> save() const;
     void restore(const std::vector<double>& data);
+    void restore(const std::vector<double>& data, const std::vector<int>& known);   ///< of these solids alone: the others stay as they are
+    void hide(const std::vector<char>& areHidden);  ///< out of the mesh, until they are placed again
+    /// Places some solids as a run that begins at `time` does; coupling as in place().
+    void begin(double time, const BodyCoupling* coupling, const std::vector<char>& which);
     /// Pose, motion, offset and kind of every solid that save() has written.
     static std::vector<Solid> stored(const std::vector<double>& data);
 
 private:
+    void placeBody(std::size_t body, const BodyCoupling& coupling);
+
     std::vector<SceneStructure> structures_;
     std::vector<BodyDefinition> bodies_;
     std::vector<std::array<Vec3, 2>> bounds_;   // per solid, in its own frame [m]

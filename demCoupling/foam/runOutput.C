@@ -32,9 +32,9 @@ std::vector<HistoryMember> makeMembers(const BodiesInput& input)
 {
     std::vector<HistoryMember> members;
     for (const StructureDefinition& s : input.structures)
-        members.push_back({s.solid.name, true, 0, s.solid.shape->moments().volume, s.solid.shape->surface(s.facetSize), sizeOf(*s.solid.shape).maxCoeff(), sizeOf(*s.solid.shape).minCoeff()});
+        members.push_back({s.solid.name, true, 0, s.solid.shape->moments().volume, s.solid.shape->surface(s.facetSize), sizeOf(*s.solid.shape).maxCoeff(), sizeOf(*s.solid.shape).minCoeff(), s.solid.pose});
     for (const BodyDefinition& b : input.bodies)
-        members.push_back({b.name, false, b.mass, b.volume, b.shape->surface(facetSize(b)), sizeOf(*b.shape).maxCoeff(), b.thinnest});
+        members.push_back({b.name, false, b.mass, b.volume, b.shape->surface(facetSize(b)), sizeOf(*b.shape).maxCoeff(), b.thinnest, b.pose});
     return members;
 }
 
@@ -45,28 +45,11 @@ std::vector<std::string> structureNames(const BodiesInput& input)
     return names;
 }
 
-/// What must not change in a run, one row of numbers for each structure and body: mass, volume, bounds of the shape; of structures also the pose given, where they
-/// move that of time 0.
-std::vector<double> describe(const BodiesInput& input)
-{
-    std::vector<double> rows;
-    const auto add = [&](double mass, double volume, const Shape& shape, const Pose& pose)
-    {
-        const std::array<Vec3, 2> b = shape.bounds();
-        rows.insert(rows.end(), {mass, volume, b[0][0], b[0][1], b[0][2], b[1][0], b[1][1], b[1][2], pose.position[0], pose.position[1], pose.position[2],
-            pose.orientation.w(), pose.orientation.x(), pose.orientation.y(), pose.orientation.z()});
-    };
-    for (const StructureDefinition& s : input.structures) add(0, s.solid.shape->moments().volume, *s.solid.shape, s.solid.pose);
-    for (const BodyDefinition& b : input.bodies) add(b.mass, b.volume, *b.shape, Pose());
-    return rows;
-}
-
 } // namespace
 
 RunOutput::RunOutput(const Foam::Time& runTime, const SimplexMesh& mesh, const Halo& halo, const FluidProperties& fluid, const BodiesInput& bodies,
     const PhaseTimers& timers)
 :   runTime_(runTime), mesh_(mesh), halo_(halo), fluid_(fluid), bodies_(bodies), timers_(timers), members_(makeMembers(bodies)),
-    descriptions_(describe(bodies)),
     files_(runTime, mesh, halo), log_(timers, runTime.value(), runTime.endTime().value()), forces_(structureNames(bodies)), restraints_(bodies), contacts_(bodies),
     nStructures_(int(bodies.structures.size())), firstStart_(runTime.value()), thinnestBody_(thinnestBody(bodies))
 {}
@@ -115,8 +98,10 @@ double RunOutput::massError() const { return mass_.relativeError(); }
 
 std::vector<std::pair<std::string, double>> RunOutput::scalars(double dt) const
 {
-    return {{"dt", dt}, {"liquidVolume", mass_.final}, {"inflow", mass_.inflow}, {"outflow", mass_.outflow},
+    std::vector<std::pair<std::string, double>> all{{"dt", dt}, {"liquidVolume", mass_.final}, {"inflow", mass_.inflow}, {"outflow", mass_.outflow},
         {"massError", massError()}, {"redistributed", redistributed_}, {"largestOverlap", largestOverlap_}};
+    if (mass_.displaced != 0) all.emplace_back("displaced", mass_.displaced);
+    return all;
 }
 
 void RunOutput::record(const CoupledStep& step, const StepResult& result, const std::string& limit, const CourantNumbers& courant)

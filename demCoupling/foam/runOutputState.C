@@ -3,6 +3,7 @@
 #include "demCoupling/foam/runOutput.H"
 
 #include "demCoupling/foam/continuedContact.H"
+#include "demCoupling/foam/continuedMembers.H"
 #include "demCoupling/foam/continuedMotion.H"
 #include "foam/dictionaryChecks.H"
 #include "io/fluidRecord.hpp"
@@ -49,25 +50,9 @@ std::vector<std::string> namesFrom(const std::vector<double>& codes)
     return names;
 }
 
-/// First row of rowSize numbers that differs by more than what files round, -1: none.
-int differingRow(const std::vector<double>& a, const std::vector<double>& b, std::size_t rowSize)
-{
-    for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k)
-        if (std::abs(a[k] - b[k]) > 1e-9*std::max({1e-3, std::abs(a[k]), std::abs(b[k])})) return int(k/rowSize);
-    return -1;
-}
-
 /// Ends messages about a constant/bodies that does not fit.
 const char* const startAnew = "; to start anew from the fields of this time, with the bodies at their places in constant/bodies, remove its flotsamState.h5 and"
     " uniform/flotsamState.h5";
-
-/// The row of a structure that moves has its place at time 0 last, seven numbers: it may begin elsewhere, see jumpingStructure().
-void leaveOutPlace(std::vector<double>& rows, const std::vector<double>& other, std::size_t row, std::size_t rowSize)
-{
-    constexpr std::size_t place = 7;
-    const std::size_t end = (row + 1)*rowSize;
-    if (end <= std::min(rows.size(), other.size())) std::copy(other.begin() + (end - place), other.begin() + end, rows.begin() + (end - place));
-}
 
 /// What tells a mesh from others, however many processes share it: number of nodes, means of their coordinates and of the squares of these.
 std::vector<double> meshRecord(const SimplexMesh& mesh, const Halo& halo)
@@ -123,7 +108,7 @@ void RunOutput::checkUnfinished() const
         + runTime_.timeName() + " to continue from the time before, or that file to start anew from the fields");
 }
 
-bool RunOutput::checkStart() const
+bool RunOutput::checkStart()
 {
     const StateFiles::Found found = files_.find();
     if (found == StateFiles::Found::Nothing) checkUnfinished();
@@ -131,7 +116,9 @@ bool RunOutput::checkStart() const
     if (found == StateFiles::Found::Own) checkContinued(files_.readOwn());
     if (found == StateFiles::Found::Shared) checkContinued(files_.readShared());
     Foam::Info<< "Start at time " << runTime_.timeName() << ": " << (found == StateFiles::Found::Own ? "the stored state continues, exactly" : found == StateFiles::Found::Shared
-        ? "bodies and sums of the stored state continue, the fluid from the written fields" : "anew from the volume fields") << Foam::nl << Foam::endl;
+        ? "bodies and sums of the stored state continue, the fluid from the written fields" : "anew from the volume fields") << Foam::endl;
+    if (found != StateFiles::Found::Nothing) reportAdded();
+    Foam::Info<< Foam::endl;
     return found != StateFiles::Found::Nothing;
 }
 
@@ -157,8 +144,9 @@ void RunOutput::continueOwn(CoupledStep& step, const FoamFields& fields)
     if (!fields.agreesWithCells(state.flow))
         Foam::Info<< "Warning: the volume fields of time " << runTime_.timeName() << " were changed since flotsamFoam wrote them. The changes do not count: the run"
             << " continues its stored state.\n    To have them count, remove " << runTime_.timeName() << "/flotsamState.h5 (in parallel of every processor*).\n" << Foam::endl;
-    step.restore(std::move(state.flow), state.arrays, CoupledStep::Fields::Exact);
+    step.restore(std::move(state.flow), state.arrays, CoupledStep::Fields::Exact, stored_);
     Foam::Info<< "continuing the stored state of time " << runTime_.timeName() << Foam::endl;
+    takeDisplaced(step);
 }
 
 /// Solids, contact and sums as stored, the fluid from the written fields.
@@ -171,9 +159,10 @@ void RunOutput::continueShared(CoupledStep& step, const FoamFields& fields)
     const bool isNodal = fields.readNodes(start);
     if (!isNodal) fields.readStart(start);
     start.time = state.flow.time;
-    step.restore(std::move(start), state.arrays, isNodal ? CoupledStep::Fields::Nodal : CoupledStep::Fields::Cells);
-    if (!isNodal) warnOtherLiquid(step.fluid().liquidVolume());
-    if (!isNodal) mass_.initial += step.fluid().liquidVolume() - mass_.final; // what reading the cells changes is no error of the run
+    step.restore(std::move(start), state.arrays, isNodal ? CoupledStep::Fields::Nodal : CoupledStep::Fields::Cells, stored_);
+    const double read = step.fluid().liquidVolume() + step.displaced();
+    if (!isNodal) warnOtherLiquid(read);
+    if (!isNodal) mass_.initial += read - mass_.final; // what reading the cells changes is no error of the run
     const bool isRewritten = halo_.size() == 1 && Foam::isFile(runTime_.timePath()/"flotsamState.h5"); // by renumberMesh, foamFormatConvert, or on other processes and then copied
     Foam::Info<< "continuing from time " << runTime_.timeName() << (isRewritten ? " on a mesh that was written anew since (another order or other digits of its points)"
         : " on other processes than those that wrote it") << ": bodies, contact and sums exactly; velocity, pressure and "
@@ -181,33 +170,59 @@ void RunOutput::continueShared(CoupledStep& step, const FoamFields& fields)
         << "; the first step is of first order in time" << Foam::endl;
 }
 
-/// Solids are stored by their numbers: another order would exchange them. Poses come from the state, so that a structure given elsewhere would stay where it was.
-void RunOutput::checkMembers(const RunState& state) const
+void RunOutput::failToContinue(const std::string& reason) const
 {
-    const auto stored = state.arrays.find("members");
-    if (stored == state.arrays.end()) return;
-    if (stored->second == codesOf(members_))
+    throw std::runtime_error("restart: constant/bodies does not go on from the stored state of time " + runTime_.timeName() + ": " + reason + startAnew);
+}
+
+/// Solids and restraints are stored by their numbers: their names tell which are meant.
+void RunOutput::findMembers(const RunState& state)
+{
+    const auto names = state.arrays.find("members"), restraints = state.arrays.find("restraintNames"), described = state.arrays.find("descriptions");
+    stored_ = {};
+    if (names != state.arrays.end())
     {
-        const auto described = state.arrays.find("descriptions");
-        if (described == state.arrays.end()) return;
-        const std::size_t rowSize = descriptions_.size()/std::max<std::size_t>(members_.size(), 1);
-        std::vector<double> rows = described->second;
-        for (int s = 0; s < nStructures_; ++s)
-            if (bodies_.structures[s].motion) leaveOutPlace(rows, descriptions_, s, rowSize);
-        const int other = differingRow(rows, descriptions_, rowSize);
-        if (other >= 0)
-            throw std::runtime_error("restart: constant/bodies is not that of the stored state of time " + runTime_.timeName() + ": mass, volume, extent"
-                + std::string(members_[other].isStructure ? " or place" : "") + " of '" + members_[other].name + "' differ. Continue with what it was" + startAnew);
-        return;
+        const int nStructures = described == state.arrays.end() ? nStructures_ : describedStructures(described->second);
+        const MatchedMembers match = matchMembers(namesFrom(names->second), nStructures, bodies_);
+        if (!match.refusal.empty()) failToContinue(match.refusal);
+        stored_ = match.stored;
     }
-    const std::vector<std::string> names = namesFrom(stored->second);
-    std::size_t first = 0;
-    while (first < names.size() && first < members_.size() && names[first] == members_[first].name) ++first;
-    const auto quoted = [](bool isThere, const std::string& name) { return isThere ? "'" + name + "'" : std::string("none"); };
-    throw std::runtime_error("restart: constant/bodies is not that of the stored state of time " + runTime_.timeName() + ", which has " + std::to_string(names.size())
-        + " structures and bodies; now there are " + std::to_string(members_.size()) + ". The first that differs was " + quoted(first < names.size(), first < names.size() ? names[first] : "")
-        + ", is " + quoted(first < members_.size(), first < members_.size() ? members_[first].name : "")
-        + ". Continue with those of the stored state" + startAnew);
+    if (restraints == state.arrays.end()) return;
+    const std::string refusal = matchRestraints(namesFrom(restraints->second), bodies_, stored_);
+    if (!refusal.empty()) failToContinue(refusal);
+}
+
+/// Poses come from the state, so that a structure given elsewhere would stay where it was.
+void RunOutput::checkDescriptions(const RunState& state, const BodiesInput& part) const
+{
+    const auto described = state.arrays.find("descriptions");
+    if (described == state.arrays.end()) return;
+    const std::string other = otherDescription(described->second, part);
+    if (!other.empty())
+        throw std::runtime_error("restart: constant/bodies is not that of the stored state of time " + runTime_.timeName() + ": " + other + ". Continue with what it was" + startAnew);
+}
+
+/// The bodies of the state have moved since constant/bodies had them at their start.
+void RunOutput::checkPlaces(const RunState& state) const
+{
+    const auto solids = state.arrays.find("solids");
+    const std::string conflict = addedInPlaceOfOthers(bodies_, stored_, solids == state.arrays.end() ? std::vector<double>() : solids->second, timeOf(state));
+    if (!conflict.empty()) failToContinue(conflict);
+}
+
+void RunOutput::reportAdded() const
+{
+    const std::string added = addedMembers(bodies_, stored_);
+    if (!added.empty()) Foam::Info<< "New in constant/bodies, not in the stored state: " << added.c_str() << ". They begin now, where constant/bodies has them" << Foam::endl;
+}
+
+/// As at the start of a run, liquid that lies in solids is none: what gives way is neither lost nor comes up elsewhere.
+void RunOutput::takeDisplaced(const CoupledStep& step)
+{
+    reportAdded();
+    if (step.displaced() == 0) return;
+    mass_.displaced += step.displaced();
+    Foam::Info<< text(step.displaced(), fluid_.isTwoPhase ? " m^3 of liquid" : " m^3 of fluid", " gave way to what is new: it is gone, ", step.displaced()/mass_.final, " of what there was").c_str() << Foam::endl;
 }
 
 /// A folder that was given another name is of that time.
@@ -217,40 +232,29 @@ double RunOutput::timeOf(const RunState& state) const
 }
 
 /// What is prescribed may change while the run goes on, but not so that a structure is elsewhere at once.
-void RunOutput::checkMotions(const RunState& state) const
+void RunOutput::checkMotions(const RunState& state, const BodiesInput& part) const
 {
     const auto solids = state.arrays.find("solids");
     if (solids == state.arrays.end()) return;
-    const std::string jump = jumpingStructure(bodies_, solids->second, timeOf(state));
+    const std::string jump = jumpingStructure(part, solids->second, timeOf(state));
     if (!jump.empty())
-        throw std::runtime_error("restart: constant/bodies does not go on from the stored state of time " + runTime_.timeName() + ": structure " + jump
-            + ". Continue with the motion it had, or with one that has it there then (`position` is that of time 0)" + startAnew);
-    const std::string held = bodiesHeldAgain(bodies_, solids->second, timeOf(state));
+        failToContinue("structure " + jump + ". Continue with the motion it had, or with one that has it there then (`position` is that of time 0)");
+    const std::string held = bodiesHeldAgain(part, solids->second, timeOf(state));
     if (!held.empty())
         Foam::Info<< "Warning: constant/bodies is not that of the stored state of time " << runTime_.timeName() << ": " << held.c_str() << ".\n" << Foam::endl;
 }
 
-/// They are stored by their numbers. What they are made of may change while the run goes on; the state of a run without any takes up new ones.
-void RunOutput::checkRestraints(const RunState& state) const
-{
-    const auto stored = state.arrays.find("restraintNames");
-    if (stored == state.arrays.end() || stored->second == codesOf(restraints_.names())) return;
-    throw std::runtime_error("restart: constant/bodies is not that of the stored state of time " + runTime_.timeName() + ", whose restraints are " + joined(namesFrom(stored->second))
-        + "; now they are " + (bodies_.restraints.empty() ? "none" : joined(restraints_.names())) + ". Continue with those of the stored state, in its order (to let go of a body give its restraint a small"
-        " breakingForce)" + startAnew);
-}
-
 /// Contact is stored by the numbers of what touches. Where bodies start is of no more consequence: said, as the edit was meant to have one. States of earlier versions know neither.
-void RunOutput::checkContact(const RunState& state) const
+void RunOutput::checkContact(const RunState& state, const BodiesInput& part) const
 {
     const std::string begin = "constant/bodies is not that of the stored state of time " + runTime_.timeName() + ": ";
     const auto names = state.arrays.find("contactNames"), sizes = state.arrays.find("contactSizes"), starts = state.arrays.find("bodyStarts");
     if (names != state.arrays.end() && sizes != state.arrays.end())
     {
-        const std::string change = changedContact({namesFrom(names->second), sizes->second}, contactParts(bodies_));
+        const std::string change = changedContact({namesFrom(names->second), sizes->second}, contactParts(part));
         if (!change.empty()) throw std::runtime_error("restart: " + begin + change + ". Continue with what it was (`wallPatches`, `contact`)" + startAnew);
     }
-    const std::string moved = starts == state.arrays.end() ? "" : bodiesStartedElsewhere(bodies_, starts->second);
+    const std::string moved = starts == state.arrays.end() ? "" : bodiesStartedElsewhere(part, starts->second);
     if (!moved.empty()) Foam::Info<< "Warning: " << begin.c_str() << moved.c_str() << ". The change does not count: bodies go on from where the state has them.\n" << Foam::endl;
 }
 
@@ -282,12 +286,14 @@ void RunOutput::warnOtherLiquid(double volume) const
         " the mesh was written anew in another order than theirs (renumberMesh renumbers the fields of one time alone): put the mesh back.\n").c_str() << Foam::endl;
 }
 
-void RunOutput::checkContinued(const RunState& state) const
+void RunOutput::checkContinued(const RunState& state)
 {
-    checkMembers(state);
-    checkMotions(state);
-    checkContact(state);
-    checkRestraints(state);
+    findMembers(state);
+    const BodiesInput part = storedPart(bodies_, stored_);
+    checkDescriptions(state, part);
+    checkMotions(state, part);
+    checkContact(state, part);
+    checkPlaces(state);
     warnOtherFluid(state);
 }
 
@@ -295,15 +301,15 @@ void RunOutput::takeSums(RunState& state)
 {
     checkContinued(state);
     state.flow.time = timeOf(state);
-    mass_ = {state.scalars["initialLiquid"], state.scalars["inflow"], state.scalars["outflow"], state.scalars["liquid"]};
+    mass_ = {state.scalars["initialLiquid"], state.scalars["inflow"], state.scalars["outflow"], state.scalars["liquid"], state.scalars["displaced"]};
     steps_ = firstStep_ = long(state.scalars["steps"]);
     redistributed_ = state.scalars["redistributed"];
     timeStep_ = state.scalars["timeStep"];
     lastStep_ = state.flow.dt;
     firstStart_ = state.scalars["firstStart"];
     largestOverlap_ = state.scalars["largestOverlap"];
-    forces_.restore(state.arrays["forces"]);
-    restraints_.restore(state.arrays["restraints"]);
+    forces_.restore(rowsWith(stored_.structures, state.arrays["forces"], forces_.values()));
+    restraints_.restore(rowsWith(stored_.restraints, state.arrays["restraints"], restraints_.values()));
 }
 
 void RunOutput::writeState(const CoupledStep& step, double timeStep)
@@ -324,7 +330,7 @@ void RunOutput::writeState(const CoupledStep& step, double timeStep)
     state.arrays["fluid"] = fluidRecord(fluid_);
     state.arrays["mesh"] = meshRecord(mesh_, halo_);
     state.arrays["members"] = codesOf(members_);
-    state.arrays["descriptions"] = descriptions_;
+    state.arrays["descriptions"] = describe(bodies_);
     if (!bodies_.bodies.empty())
     {
         const ContactParts parts = contactParts(bodies_);
@@ -334,7 +340,7 @@ void RunOutput::writeState(const CoupledStep& step, double timeStep)
     }
     state.scalars = {{"initialLiquid", mass_.initial}, {"inflow", mass_.inflow}, {"outflow", mass_.outflow}, {"liquid", mass_.final},
         {"steps", double(steps_)}, {"redistributed", redistributed_}, {"timeStep", timeStep}, {"firstStart", firstStart_},
-        {"largestOverlap", largestOverlap_}};
+        {"largestOverlap", largestOverlap_}, {"displaced", mass_.displaced}};
     files_.write(std::move(state), names);
     if (!history_) return;
     history_->flush();

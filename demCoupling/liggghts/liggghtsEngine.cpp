@@ -340,6 +340,12 @@ void LiggghtsEngine::setStates(const std::vector<BodyState>& states)
 DemState LiggghtsEngine::save() const { return saveState(impl_->model); }
 void LiggghtsEngine::restore(const DemState& state) { restoreState(impl_->model, state); }
 
+void LiggghtsEngine::restore(const DemState& state, const StoredMembers& stored)
+{
+    restoreState(impl_->model, withAdded(impl_->model, state, stored));
+    impl_->model.restraints->beginNew();
+}
+
 double LiggghtsEngine::timeStep() const { return impl_->timeStep; }
 
 } // namespace flotsam

@@ -5,6 +5,7 @@
 #include "demCoupling/core/meanContact.hpp"
 #include "demCoupling/core/restraint.hpp"
 #include "demCoupling/core/rigidBody.hpp"
+#include "demCoupling/core/storedMembers.hpp"
 
 #include <memory>
 #include <stdexcept>
@@ -87,6 +88,8 @@ public:
 
     DemState save() const;
     void restore(const DemState& state);    ///< exact: the same advance gives the same bits
+    /// Of an engine with fewer bodies and restraints (and the same walls and movers). The others stay as they are: in an engine that has not advanced at their start.
+    void restore(const DemState& state, const StoredMembers& stored);
 
     double timeStep() const;            ///< contact sub-step in use [s]
 

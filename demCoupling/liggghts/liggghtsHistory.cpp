@@ -319,4 +319,33 @@ size_t readHistories(LiggghtsModel& model, const std::vector<double>& data, size
     return reader.position();
 }
 
+size_t renumberHistories(const LiggghtsModel& model, const std::vector<double>& data, size_t position, const std::vector<int>& tags, std::vector<double>& renumbered)
+{
+    Reader reader(data, position);
+    const auto passTable = [&](int nTags, int length)
+    {
+        const long count = reader.takeCount();
+        renumbered.push_back(static_cast<double>(count));
+        for (long c = 0; c < count; ++c)
+        {
+            const double* entry = reader.take(static_cast<size_t>(length));
+            for (int k = 0; k < nTags; ++k)
+            {
+                const long tag = std::lround(entry[k]);
+                if (tag < 0 || tag >= static_cast<long>(tags.size()))
+                    throw DemError("DEM state: it names a sphere this case does not have");
+                renumbered.push_back(tags[static_cast<size_t>(tag)]);
+            }
+            renumbered.insert(renumbered.end(), entry + nTags, entry + length);
+        }
+    };
+    passTable(2, 2 + static_cast<LAMMPS_NS::PairGran&>(*model.instance.lammps().force->pair).dnum());
+    for (const WallHandle& wall : model.walls)
+        if (!wall.mesh)
+            passTable(1, 1 + wall.history->size_peratom_cols);
+    for (const MeshGroup& group : model.meshes)
+        passTable(1, 2 + group.mesh->contactHistory()->get_dnum());
+    return reader.position();
+}
+
 } // namespace flotsam

@@ -197,12 +197,30 @@ void PairTally::append(std::vector<double>& data) const
     }
 }
 
-size_t PairTally::read(const std::vector<double>& data, size_t position)
+size_t PairTally::countAt(const std::vector<double>& data, size_t position)
 {
-    now_.clear();
     const size_t count = position < data.size() ? static_cast<size_t>(data[position]) : 0;
     if (position >= data.size() || data.size() - position - 1 < count * entryLength)
         throw DemError("DEM state: the contacts end early");
+    return count;
+}
+
+size_t PairTally::renumber(const std::vector<double>& data, size_t position, const std::vector<int>& bodies, std::vector<double>& renumbered)
+{
+    const size_t count = countAt(data, position), begin = renumbered.size();
+    const auto first = data.begin() + static_cast<std::ptrdiff_t>(position);
+    renumbered.insert(renumbered.end(), first, first + static_cast<std::ptrdiff_t>(1 + count * entryLength));
+    for (size_t k = 0; k < count; ++k)
+        for (double* number : {&renumbered[begin + 1 + k * entryLength], &renumbered[begin + 2 + k * entryLength]})
+            if (*number >= 0) // not a wall
+                *number = bodies.at(static_cast<size_t>(*number));
+    return position + 1 + count * entryLength;
+}
+
+size_t PairTally::read(const std::vector<double>& data, size_t position)
+{
+    now_.clear();
+    const size_t count = countAt(data, position);
     for (const double* v = data.data() + position + 1; now_.size() < count; v += entryLength)
         now_[{static_cast<int>(v[0]), static_cast<int>(v[1])}] = {Vec3(v[2], v[3], v[4]), Vec3(v[5], v[6], v[7]), v[8], v[9], static_cast<int>(v[10])};
     return position + 1 + count * entryLength;

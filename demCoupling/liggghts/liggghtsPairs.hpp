@@ -37,6 +37,8 @@ public:
     /// Returns the position behind what was read.
     size_t read(const std::vector<double>& data, size_t position);
     void forget() { now_.clear(); }
+    /// Appends what append() has written at the position, with other numbers of the bodies (bodies[old]), and returns the position behind it.
+    static size_t renumber(const std::vector<double>& data, size_t position, const std::vector<int>& bodies, std::vector<double>& renumbered);
     /// Bodies that are gone touch no wall any more; takes their part of the walls' loads at this instant. What they did to other bodies is in these' forces until the next sub-step.
     void leaveWalls(const std::vector<char>& isGone, std::vector<Load>& wallsNow);
 
@@ -53,6 +55,7 @@ private:
     using Sums = std::map<std::pair<int, int>, Sum>;    ///< body, and body of a larger number or -1 - wall
     static constexpr size_t entryLength = 11;
 
+    static size_t countAt(const std::vector<double>& data, size_t position);
     int bodyOf(int sphere) const;
     void addPair(int i, int j, const double* spring);
     void readPlane(size_t wall, const std::vector<int>& spheres);

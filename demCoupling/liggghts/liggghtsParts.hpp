@@ -2,6 +2,7 @@
 /// Parts of the engine that see LIGGGHTS types; included by this folder's .cpp files only.
 #pragma once
 
+#include "demCoupling/core/storedMembers.hpp"
 #include "demCoupling/liggghts/contactLaw.hpp"
 #include "demCoupling/liggghts/liggghtsInstance.hpp"
 
@@ -113,6 +114,8 @@ struct MeshTouch { size_t mesh; Vec3 point; double overlap; };
 void appendHistories(const LiggghtsModel& model, std::vector<double>& data);
 /// Returns the position behind what was read.
 size_t readHistories(LiggghtsModel& model, const std::vector<double>& data, size_t position);
+/// Appends to `renumbered` what is stored from the position on, with other tags of the spheres (tags[old]), and returns the position behind it.
+size_t renumberHistories(const LiggghtsModel& model, const std::vector<double>& data, size_t position, const std::vector<int>& tags, std::vector<double>& renumbered);
 
 /// LIGGGHTS clears pages of marks for 100,000 contacts per mesh in every sub-step: after its set-up, pages no longer than one sphere may need.
 void shrinkContactPages(LiggghtsModel& model);
@@ -129,6 +132,10 @@ void markGone(LiggghtsModel& model, const std::vector<char>& isGone);   ///< wit
 // liggghtsState.cpp
 DemState saveState(const LiggghtsModel& model);
 void restoreState(LiggghtsModel& model, const DemState& state);
+
+// liggghtsAdded.cpp
+/// A state of some of the bodies and restraints as one of all: the others are as they are now, without contact. Movers are all in the state.
+DemState withAdded(const LiggghtsModel& model, const DemState& state, const StoredMembers& stored);
 
 // liggghtsContacts.cpp
 std::vector<Contact> listContacts(const LiggghtsModel& model, const DemSetup& setup);

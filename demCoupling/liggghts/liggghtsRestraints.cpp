@@ -175,6 +175,22 @@ void Restraints::append(std::vector<double>& data) const
     }
 }
 
+void Restraints::appendWithNew(const std::vector<double>& data, size_t position, const std::vector<int>& stored, std::vector<double>& all) const
+{
+    if (data.size() != position + stored.size() * lineLength)
+        throw DemError("DEM state: it belongs to another case (number of restraints differs)");
+    if (stored.empty())
+        return; // as a state without any: all begin
+    const size_t begin = all.size();
+    for (size_t i = 0; i < lines_.size(); ++i)
+    {
+        all.resize(all.size() + lineLength, 0.0);
+        all[all.size() - 3] = notPulled;
+    }
+    for (size_t k = 0; k < stored.size(); ++k)
+        std::copy_n(&data[position + k * lineLength], lineLength, &all[begin + static_cast<size_t>(stored[k]) * lineLength]);
+}
+
 size_t Restraints::read(const std::vector<double>& data, size_t position)
 {
     if (position == data.size())

@@ -36,6 +36,8 @@ public:
     void append(std::vector<double>& data) const;
     /// Returns the position behind what was read; data that ends here is of a run without restraints: they begin.
     size_t read(const std::vector<double>& data, size_t position);
+    /// Appends what append() has written of some at the position, as of all: the others have not pulled yet.
+    void appendWithNew(const std::vector<double>& data, size_t position, const std::vector<int>& stored, std::vector<double>& all) const;
 
 private:
     struct Line

@@ -4,6 +4,8 @@
 /// Exactness rests on three things. The neighbour lists, whose order is the order of all sums, are rebuilt before
 /// the first sub-step of every advance, so that they depend on this state alone. Forces are part of the state: computing
 /// them anew would use full-step instead of half-step velocities. Springs are keyed by tags.
+#include "demCoupling/liggghts/liggghtsState.hpp"
+
 #include "demCoupling/liggghts/liggghtsRestraints.hpp"
 #include "demCoupling/liggghts/liggghtsTally.hpp"
 
@@ -15,11 +17,6 @@ namespace flotsam
 namespace
 {
 
-constexpr double formatNumber = 4;
-constexpr double formatWithoutPairs = 3;    // those of older versions: half a sub-step's forces are missing in the first advance's means
-constexpr size_t headerLength = 4;
-constexpr size_t bodyLength = 11 * 3 + 4 + 8;
-constexpr size_t wallLength = 6;
 constexpr size_t springsPerBody = 40;   // room for some
 
 std::array<double**, 11> vectorsOf(const BodyArrays& b)
@@ -61,8 +58,8 @@ DemState saveState(const LiggghtsModel& model)
 {
     DemState state;
     std::vector<double>& data = state.data;
-    data.reserve(headerLength + static_cast<size_t>(model.bodies.count) * (bodyLength + springsPerBody) + model.walls.size() * wallLength);
-    data = {formatNumber, static_cast<double>(model.bodies.count), static_cast<double>(model.walls.size()),
+    data.reserve(stateHeaderLength + static_cast<size_t>(model.bodies.count) * (stateBodyLength + springsPerBody) + model.walls.size() * stateWallLength);
+    data = {stateFormat, static_cast<double>(model.bodies.count), static_cast<double>(model.walls.size()),
             static_cast<double>(model.firstSphere.back())};
     const auto vectors = vectorsOf(model.bodies);
     for (int b = 0; b < model.bodies.count; ++b)
@@ -92,28 +89,28 @@ DemState saveState(const LiggghtsModel& model)
 void restoreState(LiggghtsModel& model, const DemState& state)
 {
     const std::vector<double>& data = state.data;
-    const size_t bodyEnd = headerLength + static_cast<size_t>(model.bodies.count) * bodyLength;
-    const size_t wallEnd = bodyEnd + model.walls.size() * wallLength;
+    const size_t bodyEnd = stateHeaderLength + static_cast<size_t>(model.bodies.count) * stateBodyLength;
+    const size_t wallEnd = bodyEnd + model.walls.size() * stateWallLength;
     size_t cornerEnd = wallEnd;
     for (size_t b = 0; b < model.firstCorner.size(); ++b)
         cornerEnd += static_cast<size_t>(model.firstSphere[b + 1] - model.firstCorner[b]);
-    if (data.size() < cornerEnd || (data[0] != formatNumber && data[0] != formatWithoutPairs) || data[1] != model.bodies.count
+    if (data.size() < cornerEnd || (data[0] != stateFormat && data[0] != stateFormatWithoutPairs) || data[1] != model.bodies.count
         || data[2] != static_cast<double>(model.walls.size()) || data[3] != model.firstSphere.back())
         throw DemError("DEM state: it belongs to another case (number of bodies, walls or DEM spheres differs), or was written before boxes had spheres in their corners");
 
     readRetreated(model, data.data() + wallEnd);
-    writeBodies(model, data.data() + headerLength);
+    writeBodies(model, data.data() + stateHeaderLength);
     placeSpheres(model);
     if (!model.near->takeListsAgain())
         rebuildNeighbours(model);
     for (size_t w = 0; w < model.walls.size(); ++w)
     {
-        const double* load = data.data() + bodyEnd + w * wallLength;
+        const double* load = data.data() + bodyEnd + w * stateWallLength;
         model.tally->wallsNow()[w] = {Vec3(load[0], load[1], load[2]), Vec3(load[3], load[4], load[5])};
     }
     size_t position = readHistories(model, data, cornerEnd);
     model.tally->pairs().forget();
-    if (data[0] == formatNumber)
+    if (data[0] == stateFormat)
         position = model.tally->pairs().read(data, position);
     if (model.restraints->read(data, position) != data.size())
         throw DemError("DEM state: more data than this case needs");

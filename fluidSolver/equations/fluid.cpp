@@ -5,6 +5,7 @@
 #include "equations/rigidCoupling.hpp"
 #include "geometry/meanCover.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -87,6 +88,17 @@ void Fluid::setRemainder(const std::vector<double>& rows)
     if (!rows.empty() && rows.size() != expected)
         throw std::runtime_error("restart: the stored 'remainder' holds " + std::to_string(rows.size()) + " values, the mesh has " + std::to_string(expected));
     state_.remainder = rows;
+}
+
+void Fluid::forgetCovered(const Cover& before)
+{
+    massFluxes_.drop([&](int e) { return cover_->state[e] != before.state[e]; });
+    const auto isCovered = [&](int i) { return before.isActiveNode[i] && !cover_->isActiveNode[i]; };
+    const std::size_t B = mesh_.dim + 1;
+    for (std::size_t i = 0; (i + 1)*B <= state_.remainder.size(); ++i)
+        if (isCovered(int(i))) std::fill_n(state_.remainder.begin() + std::ptrdiff_t(i*B), B, 0.0);
+    const auto isVoid = [&](const PairFlux& f) { return isCovered(f.a) || isCovered(f.b); };
+    ghostFlux_.erase(std::remove_if(ghostFlux_.begin(), ghostFlux_.end(), isVoid), ghostFlux_.end());
 }
 
 void Fluid::keepGeometry()

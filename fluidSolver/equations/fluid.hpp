@@ -42,6 +42,9 @@ public:
     /// hasChanged: the phase field inside solids follows that of the surroundings anew.
     void setGeometry(const Cover* cover, const std::vector<Solid>* solids, bool hasChanged);
 
+    /// After solids were put in where before was fluid: what the last step left there for the next is void. before: the cover without them.
+    void forgetCovered(const Cover& before);
+
     /// The next step goes from the present geometry to the one that is set until beginStep().
     void keepGeometry();
     TransportReport beginStep(double dt);

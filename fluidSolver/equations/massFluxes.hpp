@@ -35,6 +35,18 @@ public:
     /// Of the pairs of an element's corners in the order of CornerPairs; null where the density did not vary.
     const double* of(int element) const { return at_.empty() || at_[element] < 0 ? nullptr : &values_[std::size_t(at_[element])*nPairs_]; }
 
+    /// Those of elements for which isVoid(element) count no more.
+    template<class IsVoid>
+    void drop(IsVoid isVoid)
+    {
+        std::vector<double> left;
+        const std::vector<double> all = records();
+        const std::size_t length = nPairs_ + 1;
+        for (auto at = all.begin(); at != all.end(); at += std::ptrdiff_t(length))
+            if (!isVoid(int(*at))) left.insert(left.end(), at, at + std::ptrdiff_t(length));
+        setRecords(left);
+    }
+
     /// Part of a run's state: element and fluxes of every element kept.
     std::vector<double> records() const;
     void setRecords(const std::vector<double>& records);

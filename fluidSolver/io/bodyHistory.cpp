@@ -2,6 +2,7 @@
 #include "io/bodyHistory.hpp"
 
 #include "io/hdf5File.hpp"
+#include "io/historyTables.hpp"
 #include "io/surfaceSeries.hpp"
 
 #include <unistd.h>
@@ -21,63 +22,9 @@ namespace flotsam
 namespace
 {
 
-struct Series
-{
-    const char* name;
-    std::size_t columns;
-    const char* unit;
-    const char* meaning;
-};
-
-/// Order as in `pack`.
-constexpr Series allSeries[] = {
-    {"position", 3, "m", "origin of the body frame in space; free body: its centre of mass"},
-    {"orientation", 4, "1", "unit quaternion w x y z, body frame to space"},
-    {"velocity", 3, "m/s", "of the origin, space frame"},
-    {"angularVelocity", 3, "rad/s", "space frame"},
-    {"fluidForce", 3, "N", "of the fluid on the member, space frame"},
-    {"fluidMoment", 3, "N m", "of the fluid about the origin, space frame"},
-    {"contactForce", 3, "N", "of bodies and walls on the member, space frame"},
-    {"contactMoment", 3, "N m", "of bodies and walls about the origin, space frame"},
-    {"peakContactForce", 3, "N", "of bodies and walls on the member at the instant of the step at which it was largest, space frame"},
-    {"contacts", 1, "1", "number of touching partners"},
-    {"wetFraction", 1, "1", "liquid share of the surface"},
-    {"left", 1, "1", "1: has left the mesh and was taken out, rests where it left"},
-    {"awaited", 1, "1", "1: not there yet, comes in at its position"}};
-
-constexpr std::size_t recordSize = 32;
-constexpr std::size_t chunkRows = 256;      ///< rows a dataset grows by in the file
 constexpr std::size_t maxBufferedRows = 64;
 constexpr double maxBufferedSeconds = 1;    ///< or what keeps the time that goes into the file below `largestShare` of the run's: of hundreds of bodies it takes tenths of a second
 constexpr double largestShare = 0.01;
-
-void pack(const BodyRecord& r, std::vector<double>& out)
-{
-    const auto put = [&](const Vec3& v) { out.insert(out.end(), v.data(), v.data() + 3); };
-    put(r.pose.position);
-    const auto& q = r.pose.orientation;
-    out.insert(out.end(), {q.w(), q.x(), q.y(), q.z()});
-    put(r.motion.velocity);
-    put(r.motion.angularVelocity);
-    put(r.fluidForce);
-    put(r.fluidMoment);
-    put(r.contactForce);
-    put(r.contactMoment);
-    put(r.peakContactForce);
-    out.insert(out.end(), {double(r.contacts), r.wetFraction, r.hasLeft ? 1.0 : 0.0, r.isAwaited ? 1.0 : 0.0});
-}
-
-std::string groupOf(const HistoryMember& member)
-{
-    return (member.isStructure ? "/structures/" : "/bodies/") + member.name;
-}
-
-void createSeries(Hdf5File& out, const std::string& group, const Series& series)
-{
-    out.createTable(group + series.name, series.columns, chunkRows);
-    out.setAttribute(group + series.name, "unit", std::string(series.unit));
-    out.setAttribute(group + series.name, "meaning", std::string(series.meaning));
-}
 
 void checkNames(const std::string& file, const std::vector<HistoryMember>& members)
 {
@@ -121,6 +68,7 @@ struct BodyHistory::Implementation
     bool continueFrom(double startTime);
     void checkMembers(const Hdf5File& out) const;
     void checkAlone(const Hdf5File& out) const;
+    bool isEarlier(double startTime) const;
     void flushTo(Hdf5File& out);
     void flush();
 };
@@ -142,21 +90,8 @@ void BodyHistory::Implementation::create()
     out.setAttribute("/", "formatVersion", std::int64_t(1));
     out.createTable("/run/time", 1, chunkRows);
     out.setAttribute("/run/time", "unit", std::string("s"));
-    // both groups also where they have no members: scripts loop over them
-    const auto nStructures = std::count_if(members.begin(), members.end(), [](const HistoryMember& m) { return m.isStructure; });
-    out.setAttribute("/structures", "members", std::int64_t(nStructures));
-    out.setAttribute("/bodies", "members", std::int64_t(members.size()) - nStructures);
-    for (std::size_t m = 0; m < members.size(); ++m)
-    {
-        const std::string group = groupOf(members[m]) + "/";
-        for (const auto& series : allSeries) createSeries(out, group, series);
-        out.link("/run/time", group + "time");
-        out.setAttribute(groupOf(members[m]), "mass", members[m].mass);
-        out.setAttribute(groupOf(members[m]), "volume", members[m].volume);
-        out.setAttribute(groupOf(members[m]), "longest", members[m].longest);
-        out.setAttribute(groupOf(members[m]), "thinnest", members[m].thinnest);
-        out.setAttribute(groupOf(members[m]), "member", std::int64_t(m)); // number in /surface/member
-    }
+    for (const HistoryMember& member : members) createTables(out, member);
+    numberMembers(out, members);
     surface.create(out);
     lines.create(out);
     out.close();
@@ -164,20 +99,9 @@ void BodyHistory::Implementation::create()
 
 void BodyHistory::Implementation::checkMembers(const Hdf5File& out) const
 {
-    std::set<std::string> wanted, found;
+    std::set<std::string> wanted;
     for (const auto& member : members) wanted.insert(groupOf(member));
-    for (const char* group : {"/bodies", "/structures"})
-    {
-        for (const auto& name : out.names(group)) found.insert(std::string(group) + "/" + name);
-    }
-    for (const auto& group : wanted)
-    {
-        if (!found.count(group))
-        {
-            throw std::runtime_error(file + ": holds no " + group + "; rename or remove the file to start a new one");
-        }
-    }
-    for (const auto& group : found)
+    for (const std::string& group : groupsIn(out))
     {
         if (!wanted.count(group))
         {
@@ -197,20 +121,32 @@ bool BodyHistory::Implementation::continueUndamaged(double startTime)
     }
 }
 
+/// The start time may have been through a text of 12 digits.
+double roundOff(double startTime) { return 1e-11 * std::abs(startTime); }
+
 /// False when the file holds nothing earlier than the start: it belongs to an earlier run and is replaced.
-bool BodyHistory::Implementation::continueFrom(double startTime)
+bool BodyHistory::Implementation::isEarlier(double startTime) const
 {
-    Hdf5File out(file, Hdf5File::Mode::ReadWrite);
-    if (!out.exists("/run/time"))
+    const Hdf5File in(file, Hdf5File::Mode::Read);
+    if (!in.exists("/run/time"))
     {
         throw std::runtime_error(file + ": not a body history of this program; rename or remove it");
     }
-    // the start time may have been through a text of 12 digits
-    const double tolerance = 1e-11 * std::abs(startTime), limit = startTime + tolerance;
+    const std::vector<double> oldTimes = in.readArray("/run/time");
+    if (oldTimes.empty() || oldTimes.front() >= startTime - roundOff(startTime)) return false;
+    checkMembers(in);
+    return true;
+}
+
+/// False: see isEarlier().
+bool BodyHistory::Implementation::continueFrom(double startTime)
+{
+    if (!isEarlier(startTime)) return false;
+    addToHistory(file, members, surface, lines);
+    Hdf5File out(file, Hdf5File::Mode::ReadWrite);
+    const double limit = startTime + roundOff(startTime);
     const std::vector<double> oldTimes = out.readArray("/run/time");
-    if (oldTimes.empty() || oldTimes.front() >= startTime - tolerance) return false;
     std::size_t kept = std::upper_bound(oldTimes.begin(), oldTimes.end(), limit) - oldTimes.begin();
-    checkMembers(out);
 
     std::vector<std::string> tables;
     for (const auto& member : members)

@@ -36,6 +36,7 @@ struct HistoryMember
     double volume = 0;      ///< [m^3]
     TriSurface surface;     ///< in the body frame
     double longest = 0, thinnest = 0;   ///< extents of the shape [m]
+    Pose start = {};        ///< where it is to come in, if it does so later than the file begins
 };
 
 /// Written by rank 0. Records are kept in memory and written in blocks (every 64 records or every second of wall time, with many members less often, at
@@ -45,7 +46,7 @@ class BodyHistory
 {
 public:
     /// Creates `file`, or continues it when it holds records earlier than `startTime` (restart): later ones are cut off.
-    /// Throws when a file to be continued has other members, or is damaged.
+    /// One of some of the members gets the others, `awaited` in its records. Throws when a file to be continued has members that are not among these, or is damaged.
     /// lines: names of restraints; walls: of what bodies touch that is no member.
     BodyHistory(const std::string& file, const std::vector<HistoryMember>& members, double startTime, const std::vector<std::string>& lines = {},
         const std::vector<std::string>& walls = {});

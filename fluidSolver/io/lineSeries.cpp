@@ -4,8 +4,11 @@
 #include "io/hdf5File.hpp"
 #include "io/xdmfParts.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <ostream>
+#include <sstream>
 #include <stdexcept>
 
 namespace flotsam
@@ -46,6 +49,34 @@ void LineSeries::create(Hdf5File& out) const
     createMembers(out, n, 0);
     out.setAttribute(group, "names", joined(names_));
     for (const auto& [table, unit] : {std::pair<const char*, const char*>{"/time", "s"}, {"/points", "m"}, {"/tension", "N"}}) out.setAttribute(group + table, "unit", std::string(unit));
+}
+
+std::vector<std::string> LineSeries::namesIn(const Hdf5File& file)
+{
+    std::istringstream list(file.stringAttribute(group, "names"));
+    return {std::istream_iterator<std::string>(list), {}};
+}
+
+void LineSeries::widen(Hdf5File& out, const std::vector<std::string>& names, const std::vector<int>& before)
+{
+    const std::size_t n = names.size(), stored = namesIn(out).size(), nTimes = out.rows(group + "/time");
+    const auto widenTable = [&](const std::string& table, std::size_t perLine)
+    {
+        const std::vector<double> had = out.readArray(table);
+        std::vector<double> now(nTimes * n * perLine, 0.0);
+        for (std::size_t t = 0; t < nTimes; ++t)
+            for (std::size_t i = 0; i < n; ++i)
+                if (before[i] >= 0) std::copy_n(&had[(t * stored + std::size_t(before[i])) * perLine], perLine, &now[(t * n + i) * perLine]);
+        out.setRows(table, 0);
+        out.appendRows(table, now.data(), now.size() / out.columns(table));
+    };
+    widenTable(group + "/points", 6);
+    widenTable(group + "/tension", 1);
+    std::vector<int> ends(2 * n);
+    std::iota(ends.begin(), ends.end(), 0);
+    out.setRows(group + "/lines", 0);
+    out.appendRows(group + "/lines", ends.data(), n);
+    out.setAttribute(group, "names", joined(names));
 }
 
 void LineSeries::continueFrom(Hdf5File& out, double startTime)

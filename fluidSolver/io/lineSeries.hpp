@@ -35,6 +35,11 @@ public:
     void writeXdmf() const;
 
     bool isEmpty() const { return names_.empty(); }
+    const std::vector<std::string>& names() const { return names_; }
+
+    static std::vector<std::string> namesIn(const Hdf5File& file);  ///< of the stored lines
+    /// The stored lines get others, which are not there at their times. before: number of each name among the stored lines, -1: it is new.
+    static void widen(Hdf5File& out, const std::vector<std::string>& names, const std::vector<int>& before);
 
 private:
     std::string file_;

@@ -69,10 +69,13 @@ std::timespec processorTime()
 std::string volumes(const RunSummary& s, double scale)
 {
     const double error = scale > 0 ? s.mass.error() / scale : 0;
+    const std::string displaced = s.mass.displaced == 0 ? "" : format("  gave way to bodies that were put in %.8g\n", s.mass.displaced);
     if (!s.isTwoPhase)
-        return format("\n  volume of the fluid [m^3], which moving bodies change as they cut other elements\n  at the start %.8g, at the end %.8g: %.2g of it\n", s.mass.initial, s.mass.final, error);
+        return format("\n  volume of the fluid [m^3], which moving bodies change as they cut other elements\n  at the start %.8g, at the end %.8g: %.2g of it\n", s.mass.initial, s.mass.final, error)
+            + displaced;
     return format("\n  liquid volume [m^3]\n  at the start %.8g, in %.8g, out %.8g, at the end %.8g\n  storage %.8g, error %.3g (%.2g of the liquid)\n", s.mass.initial, s.mass.inflow,
-        s.mass.outflow, s.mass.final, s.mass.storage(), s.mass.error(), error);
+        s.mass.outflow, s.mass.final, s.mass.storage(), s.mass.error(), error)
+        + displaced;
 }
 
 } // namespace

@@ -110,8 +110,9 @@ std::string forceTable(const std::string& of, const std::vector<MemberForces>& m
 struct MassBalance
 {
     double initial = 0, inflow = 0, outflow = 0, final = 0;
+    double displaced = 0;   ///< that gave way to bodies put into a run that went on
     double storage() const { return final - initial; }
-    double error() const { return storage() - (inflow - outflow); }
+    double error() const { return storage() - (inflow - outflow - displaced); }
     /// Over the liquid at the start or now, whichever is more: a channel may begin dry. Not over what has passed: that grows in any long run.
     double relativeError() const { return std::max(initial, final) > 0 ? error()/std::max(initial, final) : 0; }
 };

@@ -4,8 +4,10 @@
 #include "io/hdf5File.hpp"
 #include "io/xdmfParts.hpp"
 
+#include <map>
 #include <ostream>
 #include <stdexcept>
+#include <utility>
 
 namespace flotsam
 {
@@ -74,6 +76,60 @@ void SurfaceSeries::continueFrom(Hdf5File& out, double startTime)
     out.setRows(group + "/velocity", n * points_.size());
     out.setRows(group + "/memberVelocity", n * triangleMember_.size());
     out.setRows(group + "/contactForce", n * triangleMember_.size());
+}
+
+namespace
+{
+
+/// Rows of all times again, for more members. counts: rows of each member at a time; ofNew: a row of a member that is new.
+template<class OfNew>
+void widenTable(Hdf5File& out, const std::string& table, const std::vector<std::size_t>& counts, const std::vector<int>& before, OfNew ofNew)
+{
+    std::map<int, std::size_t> first;
+    for (std::size_t m = 0; m < counts.size(); ++m)
+        if (before[m] >= 0) first[before[m]] = counts[m];
+    std::size_t stored = 0;
+    for (auto& [number, count] : first) stored += std::exchange(count, stored);
+    const std::vector<double> rows = out.readArray(table);
+    if (stored == 0 || rows.size() % (3*stored) != 0) throw std::runtime_error("the surfaces of the bodies have changed since the history was begun; rename or remove it to start a new one");
+    const std::size_t nTimes = rows.size()/(3*stored);
+    out.setRows(table, 0);
+    for (std::size_t t = 0; t < nTimes; ++t)
+    {
+        std::vector<double> wider;
+        for (std::size_t m = 0; m < counts.size(); ++m)
+        {
+            for (std::size_t k = 0; before[m] < 0 && k < counts[m]; ++k) put(wider, ofNew(m));
+            if (before[m] < 0) continue;
+            const auto at = rows.begin() + std::ptrdiff_t(3*(t*stored + first[before[m]]));
+            wider.insert(wider.end(), at, at + std::ptrdiff_t(3*counts[m]));
+        }
+        out.appendRows(table, wider.data(), wider.size()/3);
+    }
+}
+
+} // namespace
+
+void SurfaceSeries::widen(Hdf5File& out, const std::vector<HistoryMember>& members, const std::vector<int>& before) const
+{
+    if (isEmpty()) return;
+    if (!out.exists(group)) return create(out);
+    std::vector<std::size_t> points, triangles;
+    for (const HistoryMember& member : members)
+    {
+        points.push_back(member.surface.points.size());
+        triangles.push_back(member.surface.triangles.size());
+    }
+    const auto atStart = [&](std::size_t m) { return members[m].start.position; };
+    const auto atRest = [](std::size_t) { return Vec3(0, 0, 0); };
+    widenTable(out, group + "/points", points, before, atStart);
+    widenTable(out, group + "/velocity", points, before, atRest);
+    widenTable(out, group + "/memberVelocity", triangles, before, atRest);
+    widenTable(out, group + "/contactForce", triangles, before, atRest);
+    out.setRows(group + "/triangles", 0);
+    out.setRows(group + "/member", 0);
+    out.appendRows(group + "/triangles", triangles_.data(), triangleMember_.size());
+    out.appendRows(group + "/member", triangleMember_.data(), triangleMember_.size());
 }
 
 void SurfaceSeries::append(Hdf5File& out, double time, const std::vector<BodyRecord>& records)

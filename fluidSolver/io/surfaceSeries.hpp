@@ -20,6 +20,8 @@ public:
     void create(Hdf5File& out) const;
     /// Cuts off times later than `startTime`. Throws when the stored surfaces have another number of points or triangles.
     void continueFrom(Hdf5File& out, double startTime);
+    /// The stored surfaces of some members get those of the others, as points at their start. before: number of each member among the stored ones, -1: it is new.
+    void widen(Hdf5File& out, const std::vector<HistoryMember>& members, const std::vector<int>& before) const;
     /// Adds one time; a time that is not later than the last one is ignored.
     void append(Hdf5File& out, double time, const std::vector<BodyRecord>& records);
     /// Writes <file without ending>.xdmf for the times added so far.
