@@ -64,6 +64,8 @@ flotsam_test(stepLengths verification SOURCES verification/stepLengths.cpp
   LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
 flotsam_test(enteringBodies verification SOURCES verification/enteringBodies.cpp
   LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
+flotsam_test(addedBodies verification SOURCES verification/addedBodies.cpp
+  LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
 flotsam_test(fastBodies verification SOURCES verification/fastBodies.cpp
   LIBRARIES flotsam_coupling flotsam_test_support RANKS 1 2)
 flotsam_test(heldBody verification SOURCES verification/heldBody.cpp

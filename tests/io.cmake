@@ -2,6 +2,7 @@
 flotsam_test(checkpoint unit SOURCES unit/checkpoint.cpp LIBRARIES flotsam_io RANKS 1 2)
 flotsam_test(fluidRecord unit SOURCES unit/fluidRecord.cpp LIBRARIES flotsam_io RANKS 1)
 flotsam_test(bodyHistory unit SOURCES unit/bodyHistory.cpp LIBRARIES flotsam_io RANKS 1)
+flotsam_test(addedHistory unit SOURCES unit/addedHistory.cpp LIBRARIES flotsam_io RANKS 1)
 flotsam_test(contactSeries unit SOURCES unit/contactSeries.cpp LIBRARIES flotsam_io RANKS 1)
 flotsam_test(runLog unit SOURCES unit/runLog.cpp LIBRARIES flotsam_io RANKS 1)
 flotsam_test(stopSignal unit SOURCES unit/stopSignal.cpp LIBRARIES flotsam_io RANKS 1)

@@ -164,7 +164,7 @@ std::string matchRestraints(const std::vector<std::string>& names, const BodiesI
     stored.restraints = numbersIn(names, now);
     const std::string exchange = exchanged(names, stored.restraints);
     if (missing(names, stored.restraints).empty() && exchange.empty()) return "";
-    return text("the state's restraints are ", joined(names), "; now they are ", now.empty() ? "none" : joined(now), ". Others may be added, but those of the state must be there, in its order"
+    return text("it is of a run whose restraints are ", joined(names), "; now they are ", now.empty() ? "none" : joined(now), ". Others may be added, but those of the state must be there, in its order"
         " (to let go of a body give its restraint a small breakingForce)");
 }
 

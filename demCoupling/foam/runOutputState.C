@@ -220,9 +220,10 @@ void RunOutput::reportAdded() const
 void RunOutput::takeDisplaced(const CoupledStep& step)
 {
     reportAdded();
-    if (step.displaced() == 0) return;
+    constexpr double negligible = 1e-9; // of the liquid: traces in the gas
     mass_.displaced += step.displaced();
-    Foam::Info<< text(step.displaced(), fluid_.isTwoPhase ? " m^3 of liquid" : " m^3 of fluid", " gave way to what is new: it is gone, ", step.displaced()/mass_.final, " of what there was").c_str() << Foam::endl;
+    if (!(step.displaced() > negligible*mass_.final)) return;
+    Foam::Info<< text(step.displaced(), fluid_.isTwoPhase ? " m^3 of liquid" : " m^3 of fluid", " gave way to what is new, of ", mass_.final, ": gone, as liquid that lies in bodies at a start").c_str() << Foam::endl;
 }
 
 /// A folder that was given another name is of that time.

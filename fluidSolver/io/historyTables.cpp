@@ -151,7 +151,7 @@ void addToHistory(const std::string& file, const std::vector<HistoryMember>& mem
         const Hdf5File in(file, Hdf5File::Mode::Read);
         before = numbersIn(in, members);
         const bool isComplete = std::find(before.begin(), before.end(), -1) == before.end();
-        if (isComplete && (!in.exists("/restraints") || LineSeries::namesIn(in).size() == lines.names().size())) return;
+        if (isComplete && (!in.exists("/restraints") || LineSeries::namesIn(in).size() >= lines.names().size())) return;
     }
     const std::string temporary = file + ".tmp";
     copyFile(file, temporary);

@@ -37,7 +37,8 @@ def discharge(h, span=0.25):
 def massError(h):
     """Change of the liquid volume that inflow and outflow do not explain, over the largest volume (a channel may begin dry); largest over time."""
     volume, inflow, outflow = (h.run[name] for name in ("liquidVolume", "inflow", "outflow"))
-    unexplained = (volume - volume[0]) - (inflow - inflow[0]) + (outflow - outflow[0])
+    displaced = np.nan_to_num(h.run.get("displaced", np.zeros(len(volume))))    # what gave way to bodies put into a run that went on
+    unexplained = (volume - volume[0]) - (inflow - inflow[0]) + (outflow - outflow[0]) + (displaced - displaced[0])
     return np.abs(unexplained).max() / volume.max()
 
 

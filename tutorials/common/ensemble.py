@@ -14,6 +14,7 @@ import sys
 from collections import namedtuple
 
 import clogging
+import flotsam
 import matplotlib
 import numpy as np
 from bodyHistory import CaseError
@@ -35,6 +36,7 @@ def arguments():
     parser.add_argument("case", help="folder of the case; it stays as it is")
     parser.add_argument("--vary", action="append", required=True, type=entry, metavar="FILE:ENTRY=V1,V2,..", help="'ENTRY value;' stands once in FILE of the case; several: all combinations")
     parser.add_argument("--over", metavar="ENTRY", help="runs that differ in other entries alone are put together (default: the first of --vary)")
+    parser.add_argument("--start", metavar="RUN", help="folder of a run of the same mesh with a state: every run goes on from its latest time, with the bodies that it has not (default: each makes its fields)")
     parser.add_argument("--output", default="ensemble", metavar="FOLDER", help="of the runs and the results (default: ensemble); runs that are complete there are not run again")
     parser.add_argument("--command", metavar="COMMAND", help="makes and runs a case, in its folder (default: blockMesh, setFields or setExprFields where there are their dictionaries, flotsamFoam)")
     parser.add_argument("-j", "--jobs", type=int, default=1, metavar="N", help="so many runs at a time")
@@ -67,6 +69,53 @@ def checkEntries(case, entries):
             raise CaseError(f"{path}: '{e.name} value;' stands {count} times in it, and must once: make it a parameter of its own, used as ${e.name}")
 
 
+def startTime(run):
+    """The folder of the latest time of a run that has a state to go on from."""
+    states = [name for name in (os.listdir(run) if os.path.isdir(run) else []) if flotsam.isTime(name)
+              and any(os.path.isfile(os.path.join(run, name, *place)) for place in (("flotsamState.h5",), ("uniform", "flotsamState.h5")))]
+    if not os.path.isdir(os.path.join(run, "constant", "polyMesh")) or not states:
+        raise CaseError(f"--start {run}: a run of flotsamFoam is wanted, with constant/polyMesh and a time that has flotsamState.h5 or uniform/flotsamState.h5; after a parallel run: reconstructPar -latestTime")
+    latest = max(states, key=float)
+    later = [name for name in os.listdir(os.path.join(run, "processor0")) if flotsam.isTime(name) and float(name) > float(latest)] if os.path.isdir(os.path.join(run, "processor0")) else []
+    if later:
+        raise CaseError(f"--start {run}: its processors have time {max(later, key=float)}, it has {latest}: reconstructPar -latestTime")
+    return latest
+
+
+def checkStart(options):
+    """Of --start: what of --vary and the case does not go together with a state."""
+    latest = startTime(options.start)
+    for e in options.vary:
+        if e.file.split("/")[0] in ("0", "0.orig"):
+            raise CaseError(f"--vary {e.file}: with --start the fields and their boundary conditions are those of {os.path.join(options.start, latest)}")
+    with open(os.path.join(options.case, "system", "controlDict"), encoding="utf-8") as file:
+        text = file.read()
+    if withValue(text, "startFrom", "latestTime")[1] != 1:
+        raise CaseError(f"{options.case}/system/controlDict: 'startFrom' must stand once in it")
+    end = re.search(r"(?m)^\s*endTime\s+([\d.eE+-]+)\s*;", text)
+    if end and float(end[1]) <= float(latest) and not any(e.name == "endTime" for e in options.vary):
+        raise CaseError(f"{options.case}/system/controlDict: endTime {end[1]} is not after {latest}, at which the runs go on")
+
+
+def goOn(folder, start):
+    """Lets a case go on from the latest time of a run. Its mesh, unless blockMesh alone makes it: then flotsamFoam tells whether it is the same."""
+    latest = startTime(start)
+    shutil.rmtree(os.path.join(folder, "0"), ignore_errors=True)
+    shutil.copytree(os.path.join(start, latest), os.path.join(folder, latest))
+    if not meshesItself(folder):
+        shutil.rmtree(os.path.join(folder, "constant", "polyMesh"), ignore_errors=True)
+        shutil.copytree(os.path.join(start, "constant", "polyMesh"), os.path.join(folder, "constant", "polyMesh"))
+    path = os.path.join(folder, "system", "controlDict")
+    with open(path, encoding="utf-8") as file:
+        text, _ = withValue(file.read(), "startFrom", "latestTime")
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+def meshesItself(folder):
+    return [os.path.isfile(os.path.join(folder, "system", name)) for name in ("blockMeshDict", "snappyHexMeshDict", "refineMeshDict")] == [True, False, False]
+
+
 def makeCase(case, folder, entries, values):
     """A copy of the case without its results, with these values."""
     shutil.rmtree(folder, ignore_errors=True)
@@ -95,14 +144,29 @@ def execute(folder, command, log):
         raise CaseError(f"{command if isinstance(command, str) else ' '.join(command)} ended with exit code {code}: {os.path.join(folder, log)}")
 
 
+def checkMesh(folder):
+    """flotsamFoam lets a state go on on any mesh with as many cells."""
+    for name in ("log.flotsamFoam", "log.command"):
+        path = os.path.join(folder, name)
+        if os.path.isfile(path):
+            with open(path, encoding="utf-8", errors="replace") as file:
+                if "the mesh is not that of the stored state" in file.read():
+                    raise CaseError(f"{folder}: its mesh is not that of --start, whose points lie elsewhere: {path}")
+
+
 def run(options, folder, values):
     """A member of the ensemble, run unless its report is there."""
     report = os.path.join(folder, "postProcessing", "flotsam", "report", "report.json")
     if not os.path.isfile(report):
         makeCase(options.case, folder, options.vary, values)
-        steps = [options.command] if options.command else [[tool] for tool, file in STEPS if os.path.isfile(os.path.join(folder, file))] + [["flotsamFoam"]]
+        tools = [tool for tool, file in STEPS if os.path.isfile(os.path.join(folder, file))]
+        if options.start:
+            goOn(folder, options.start)
+            tools = ["blockMesh"] if meshesItself(folder) else []
+        steps = [options.command] if options.command else [[tool] for tool in tools + ["flotsamFoam"]]
         for step in steps:
             execute(folder, step, "log." + ("command" if options.command else step[0]))
+        checkMesh(folder)
         execute(folder, [sys.executable, os.path.join(os.path.dirname(os.path.abspath(__file__)), "caseReport.py"), "--no-pictures", *shlex.split(options.report)], "log.flotsamReport")
         print(f"{folder}: done", flush=True)
     with open(report, encoding="utf-8") as file:
@@ -208,6 +272,8 @@ def main():
         if options.over and options.over not in names:
             raise CaseError(f"--over {options.over}: one of --vary's entries is wanted: {', '.join(names)}")
         checkEntries(options.case, options.vary)
+        if options.start:
+            checkStart(options)
         members, failed = runAll(options)
         if not members:
             raise CaseError("no run has come to its end")

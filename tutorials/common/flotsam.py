@@ -25,7 +25,7 @@ NODAL = {ALPHA: "pointAlpha", "U": "pointU", "p": "pointP"}  # nodal twin of a v
 
 # --- fields -----------------------------------------------------------------------------------------------------------
 
-def _isTime(name):
+def isTime(name):
     try:
         return float(name) >= 0
     except ValueError:
@@ -37,7 +37,7 @@ def _timeFolders(folder):
     found = {}
     for name in os.listdir(folder) if os.path.isdir(folder) else []:
         path = os.path.join(folder, name)
-        if _isTime(name) and os.path.isdir(path) and any(os.path.isfile(os.path.join(path, f)) for f in os.listdir(path)):
+        if isTime(name) and os.path.isdir(path) and any(os.path.isfile(os.path.join(path, f)) for f in os.listdir(path)):
             found[float(name)] = name
     return found
 
