@@ -148,7 +148,7 @@ MatchedMembers matchMembers(const std::vector<std::string>& names, int nStructur
     const std::string noStructures = missing(structures, result.stored.structures), noBodies = missing(bodies, result.stored.bodies);
     const std::string lost = (noStructures.empty() ? "" : "structures " + noStructures) + (noStructures.empty() || noBodies.empty() ? "" : ", ") + (noBodies.empty() ? "" : "bodies " + noBodies);
     if (!lost.empty())
-        result.refusal = text("it has no more ", lost, ", which the state has (", names.size(), " structures and bodies; now there are ", input.structures.size() + input.bodies.size(),
+        result.refusal = text(lost, " are missing, which the state has (", names.size(), " structures and bodies; now there are ", input.structures.size() + input.bodies.size(),
             "). Others may be added, but those of the state must be there, with the names they had: put them back");
     for (const auto& [list, numbers] : {std::pair(structures, result.stored.structures), std::pair(bodies, result.stored.bodies)})
         if (result.refusal.empty()) result.refusal = exchanged(list, numbers);

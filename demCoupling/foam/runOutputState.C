@@ -168,6 +168,7 @@ void RunOutput::continueShared(CoupledStep& step, const FoamFields& fields)
         : " on other processes than those that wrote it") << ": bodies, contact and sums exactly; velocity, pressure and "
         << "phase from " << (isNodal ? "the point fields, as accurate as written (writePrecision)" : "the volume fields, as there are no point fields to them: less accurate")
         << "; the first step is of first order in time" << Foam::endl;
+    takeDisplaced(step);
 }
 
 void RunOutput::failToContinue(const std::string& reason) const

@@ -1,7 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Bodies put into a run that goes on: on one process and on two, from a state of a flow with structures alone, of one without constant/bodies, of bodies in a jam, and from reconstructed
-# fields. Nothing of what is there is disturbed by a body that is not there yet, to the last bit; the liquid that gives way is told and no mass error; histories and pictures have the
+# fields. Nothing of what is there is disturbed by a body that is not there yet, to round-off; the liquid that gives way is told and no mass error; histories and pictures have the
 # new bodies. What must not be is refused with a message.
 . "$(dirname "$0")/support.sh"
 mkdir -p "$work" && cd "$work" || exit
@@ -62,7 +62,7 @@ for ranks in 1 2; do
     goOn jam$ranks $ranks 'continuing the stored state'
     goOn more$ranks $ranks 'not in the stored state: 1 body (late)'
     for case in jam$ranks more$ranks; do [ $ranks = 1 ] || (cd $case && quietly reconstructPar -latestTime) || exit; done
-    python "$here/compare.py" jam$ranks more$ranks 0 || exit
+    python "$here/compare.py" jam$ranks more$ranks 1e-11 || exit # the order of sums over contacts follows from the numbers of the spheres
 done
 
 # a flow without constant/bodies; a bar in front of which another one, moored, is put afterwards; then a second stop
@@ -118,7 +118,7 @@ check(list(bar["bodies/boat"].awaited[[0, 4, 8, 9, 16]]) == [1, 1, 1, 0, 0] and 
 check(driftwood.massError(bar) < 1e-9, f"bar: mass error {driftwood.massError(bar):.1e}")
 with h5py.File("bar/postProcessing/flotsam/bodies.h5") as f:
     steps, points = len(f["surface/time"]), f["surface/points"]
-    check(list(f["surface/time"][:]) == [0.004, 0.008, 0.012, 0.016] and len(points) % steps == 0, "bar: surfaces")
+    check(np.allclose(f["surface/time"], [0.004, 0.008, 0.012, 0.016]) and len(points) % steps == 0, "bar: surfaces")
     first = points[: len(points) // steps]
     check(np.ptp(first[f["surface/triangles"][f["surface/member"][:] == f["bodies/boat"].attrs["member"]].ravel()], 0).max() == 0, "bar: the boat is to be seen before it comes in")
 PY
@@ -133,9 +133,9 @@ refused() {
         grep -q "$3" "$1.log" || fail "$1 ($option): no word of '$3': $(tail -n 12 "$1.log")"
     done
 }
-refused lost 'sed -i "/{ position (-0.046/d" constant/bodies' "it has no more bodies bar.2, which the state has"
-refused renamed 'sed -i "s/^    bar\$/    log/" constant/bodies' "it has no more bodies bar.0; bar.1; bar.2, which the state has"
-refused structure 'sed -i "/^structures\$/{n;s/{/{ post { shape { type box; size (0.02 0.02 0.1); } position (-0.25 0 0.05); }/}" constant/bodies' 'structures can be added to the state of a run without bodies alone'
+refused lost 'sed -i "/{ position (-0.046/d" constant/bodies' "bodies bar.2 are missing, which the state has"
+refused renamed 'sed -i "s/^    bar\$/    log/" constant/bodies' "bodies bar.0; bar.1; bar.2 are missing, which the state has"
+refused structure 'sed -i "/^structures\$/{n;s/{/{ post { shape { type box; size (0.02 0.02 0.1); } material wood; position (-0.25 0 0.05); }/}" constant/bodies' 'structures can be added to the state of a run without bodies alone'
 
 # where a body of the state is now, not where it began
 makeFloatingBar thrown
