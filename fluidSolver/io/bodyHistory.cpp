@@ -26,6 +26,9 @@ constexpr std::size_t maxBufferedRows = 64;
 constexpr double maxBufferedSeconds = 1;    ///< or what keeps the time that goes into the file below `largestShare` of the run's: of hundreds of bodies it takes tenths of a second
 constexpr double largestShare = 0.01;
 
+/// The start time may have been through a text of 12 digits.
+double roundOff(double startTime) { return 1e-11 * std::abs(startTime); }
+
 void checkNames(const std::string& file, const std::vector<HistoryMember>& members)
 {
     std::set<std::string> groups;
@@ -120,9 +123,6 @@ bool BodyHistory::Implementation::continueUndamaged(double startTime)
             " without the records before its start");
     }
 }
-
-/// The start time may have been through a text of 12 digits.
-double roundOff(double startTime) { return 1e-11 * std::abs(startTime); }
 
 /// False when the file holds nothing earlier than the start: it belongs to an earlier run and is replaced.
 bool BodyHistory::Implementation::isEarlier(double startTime) const

@@ -5,8 +5,6 @@
 #include "io/bodyHistory.hpp"
 #include "io/hdf5File.hpp"
 
-#include <limits>
-
 namespace flotsam
 {
 
