@@ -51,20 +51,21 @@ std::vector<int> numbersIn(const Hdf5File& file, const std::vector<HistoryMember
     return numbers;
 }
 
-/// The numbers of /contacts: members, then walls.
-void renumberContacts(Hdf5File& out, const std::vector<int>& before)
+/// The numbers of /contacts: members, then walls; of /restraints: members, -1 for points of space.
+void renumberMembers(Hdf5File& out, const std::vector<int>& before)
 {
     const int nBefore = int(std::count_if(before.begin(), before.end(), [](int number) { return number >= 0; })), nNow = int(before.size());
     std::map<int, int> now;
     for (int m = 0; m < nNow; ++m)
         if (before[m] >= 0) now[before[m]] = m;
-    for (const char* table : {"/contacts/first", "/contacts/second"})
+    for (const char* table : {"/contacts/first", "/contacts/second", "/restraints/members"})
     {
         if (!out.exists(table)) continue;
         std::vector<double> numbers = out.readArray(table);
-        for (double& number : numbers) number = number >= nBefore ? number + (nNow - nBefore) : now.at(int(number));
+        for (double& number : numbers)
+            if (number >= 0) number = number >= nBefore ? number + (nNow - nBefore) : now.at(int(number));
         out.setRows(table, 0);
-        out.appendRows(table, numbers.data(), numbers.size());
+        out.appendRows(table, numbers.data(), numbers.size()/out.columns(table));
     }
 }
 
@@ -165,7 +166,7 @@ void addToHistory(const std::string& file, const std::vector<HistoryMember>& mem
     }
     numberMembers(out, members);
     surface.widen(out, members, before);
-    renumberContacts(out, before);
+    renumberMembers(out, before);
     addLines(out, lines.names());
     out.close();
     if (std::rename(temporary.c_str(), file.c_str()) != 0) throw std::runtime_error(file + ": cannot rename " + temporary + " (" + std::strerror(errno) + ")");

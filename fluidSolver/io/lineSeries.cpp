@@ -60,18 +60,19 @@ std::vector<std::string> LineSeries::namesIn(const Hdf5File& file)
 void LineSeries::widen(Hdf5File& out, const std::vector<std::string>& names, const std::vector<int>& before)
 {
     const std::size_t n = names.size(), stored = namesIn(out).size(), nTimes = out.rows(group + "/time");
-    const auto widenTable = [&](const std::string& table, std::size_t perLine)
+    const auto widenTable = [&](const std::string& table, std::size_t perLine, double unknown)
     {
         const std::vector<double> had = out.readArray(table);
-        std::vector<double> now(nTimes * n * perLine, 0.0);
+        std::vector<double> now(nTimes * n * perLine, unknown);
         for (std::size_t t = 0; t < nTimes; ++t)
             for (std::size_t i = 0; i < n; ++i)
                 if (before[i] >= 0) std::copy_n(&had[(t * stored + std::size_t(before[i])) * perLine], perLine, &now[(t * n + i) * perLine]);
         out.setRows(table, 0);
         out.appendRows(table, now.data(), now.size() / out.columns(table));
     };
-    widenTable(group + "/points", 6);
-    widenTable(group + "/tension", 1);
+    widenTable(group + "/points", 6, 0);
+    widenTable(group + "/tension", 1, 0);
+    if (out.exists(group + "/members")) widenTable(group + "/members", 2, -1);
     std::vector<int> ends(2 * n);
     std::iota(ends.begin(), ends.end(), 0);
     out.setRows(group + "/lines", 0);

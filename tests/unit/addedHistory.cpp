@@ -42,10 +42,11 @@ std::vector<BodyRecord> recordsAt(double t, std::size_t n)
 
 std::vector<double> read(const std::string& file, const std::string& path) { return Hdf5File(file, Hdf5File::Mode::Read).readArray(path); }
 
-std::vector<LineRecord> lines(std::size_t n, double t)
+/// From these members to points of space.
+std::vector<LineRecord> lines(const std::vector<int>& fastenedTo, double t)
 {
-    std::vector<LineRecord> list(n);
-    for (std::size_t k = 0; k < n; ++k) list[k] = {Vec3(t, 0, 0), Vec3(t, 1 + double(k), 0), 100*t + double(k)};
+    std::vector<LineRecord> list(fastenedTo.size());
+    for (std::size_t k = 0; k < list.size(); ++k) list[k] = {Vec3(t, 0, 0), Vec3(t, 1 + double(k), 0), 100*t + double(k), fastenedTo[k], -1};
     return list;
 }
 
@@ -60,7 +61,7 @@ void writeFew(const std::string& file)
     {
         history.append(t, recordsAt(t, 2), {{"dt", 1.0}});
         history.writeSurface(t, recordsAt(t, 2));
-        history.writeLines(t, lines(1, t));
+        history.writeLines(t, lines({1}, t));
         ContactRecord pier, bed;
         pier.first = bed.first = 1;
         pier.second = 0;
@@ -81,7 +82,7 @@ TEST_CASE("members that come late are awaited at their start in the records befo
         BodyHistory history(file, more, 1, {"new", "tie"}, {"bed"});
         history.append(1.5, recordsAt(1.5, 4), {{"dt", 0.5}});
         history.writeSurface(1.5, recordsAt(1.5, 4));
-        history.writeLines(1.5, lines(2, 1.5));
+        history.writeLines(1.5, lines({2, 3}, 1.5));
         ContactRecord both;
         both.first = 2;
         both.second = 4;
@@ -104,6 +105,7 @@ TEST_CASE("members that come late are awaited at their start in the records befo
     CHECK(in.readArray("/contacts/first") == std::vector<double>{3, 3, 3, 3, 2});
     CHECK(in.readArray("/contacts/second") == std::vector<double>{0, 4, 0, 4, 4});
     CHECK(in.readArray("/restraints/tension") == std::vector<double>{0, 0, 0, 100, 150, 151});
+    CHECK(in.readArray("/restraints/members") == std::vector<double>{-1, -1, 3, -1, -1, -1, 3, -1, 2, -1, 3, -1});
     const std::vector<double> ends = in.readArray("/restraints/points");
     REQUIRE(ends.size() == 3*4*3);
     CHECK(Vec3(&ends[12]) == Vec3(&ends[15]));   // the new one is not there at 1 s
