@@ -40,6 +40,7 @@ template <class Record, class OtherRecord, class Visit>
 void forEachList(Record& one, OtherRecord& other, Visit visit)
 {
     visit(one.lastLoads, other.lastLoads);
+    visit(one.lastChanges, other.lastChanges);
     visit(one.contact, other.contact);
     visit(one.guess, other.guess);
     visit(one.shares, other.shares);
