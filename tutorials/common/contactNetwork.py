@@ -22,7 +22,7 @@ def isKnown(h, holders):
     return any(holders) and len(getattr(h, "contacts", {}).get("time", [])) > 0 and (not restraints or "members" in restraints)
 
 
-Lines = namedtuple("Lines", "pairs force")      # of restraints that are there at one time: members or anchors, n x 2; force on the first of each, n x 3 [N]
+Lines = namedtuple("Lines", "pairs force ends") # of restraints that are there at one time: members or anchors, n x 2; force on the first of each, n x 3 [N]; ends, n x 2 x 3 [m]
 
 
 def anchor(k):
@@ -36,14 +36,14 @@ def linesAt(h, time):
     n = len(r.get("names", []))
     row = np.flatnonzero(np.abs(r["time"] - time) <= 1e-9 * max(time, 1)) if n else []
     if not len(row):
-        return Lines(np.zeros((0, 2), dtype=int), np.zeros((0, 3)))
+        return Lines(np.zeros((0, 2), dtype=int), np.zeros((0, 3)), np.zeros((0, 2, 3)))
     rows = slice(n * row[0], n * (row[0] + 1))
     ends = r["points"].reshape(-1, 2, 3)[rows]
     way = ends[:, 1] - ends[:, 0]
     length = np.linalg.norm(way, axis=1)
     isThere = length > 0
     pairs = np.where(r["members"][rows] < 0, anchor(np.arange(n))[:, None], r["members"][rows])
-    return Lines(pairs[isThere], (r["tension"].ravel()[rows, None] * way)[isThere] / length[isThere, None])
+    return Lines(pairs[isThere], (r["tension"].ravel()[rows, None] * way)[isThere] / length[isThere, None], ends[isThere])
 
 
 def links(h, times):

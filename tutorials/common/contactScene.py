@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of a jam's contacts: lines from body to body and to what holds them, as thick and as bright as the force."""
+"""Pictures of a jam's contacts: lines from body to body and to what holds them, and restraints, as thick and as bright as the force."""
 import os
 
 import numpy as np
@@ -14,11 +14,16 @@ FAINTEST = 0.25     # of the colour map: what is fainter is not seen on white
 
 
 def _contacts(h, time):
-    """Those of the write time nearest to `time`; None where there are none."""
+    """Those of the write time nearest to `time`, the lines of restraints behind them in `line` and `force`; None where nothing touches."""
     if not len(h.contacts.get("time", [])):
         return None
     found = contactNetwork.at(h, int(np.argmin(np.abs(h.contacts["time"] - time))))
-    return found if len(found.force) else None
+    if not len(found.force):
+        return None
+    restraints = contactNetwork.linesAt(h, found.time)
+    lines = restraints.ends[:, [0, 0, 1]]
+    lines[:, 1] = restraints.ends.mean(1)
+    return found._replace(line=np.concatenate([found.line, lines]), force=np.concatenate([found.force, restraints.force]))
 
 
 def _lookup(largest):
@@ -79,7 +84,7 @@ def _bar(table):
 def _bounds(contacts, surfaces):
     """Of the bodies that touch something."""
     numbers = set(contacts.first) | set(contacts.second)
-    points = np.concatenate([contacts.line.reshape(-1, 3)] + [vtk_to_numpy(data.GetPoints().GetData()) for number, isStructure, data in surfaces if number in numbers and not isStructure])
+    points = np.concatenate([contacts.line[: len(contacts.first)].reshape(-1, 3)] + [vtk_to_numpy(data.GetPoints().GetData()) for number, isStructure, data in surfaces if number in numbers and not isStructure])
     margin = 0.05 * np.ptp(points, axis=0).max()
     return np.stack((points.min(0) - margin, points.max(0) + margin), axis=1).ravel()
 
@@ -140,7 +145,7 @@ def renderContacts2d(time, file, history, normal=2, size=(10, 5)):
     lines.set_clim(0, force.max())
     bounds = _bounds(contacts, surfaces).reshape(3, 2)[plane]
     axes.set(aspect="equal", xlim=bounds[0], ylim=bounds[1], xlabel="xyz"[plane[0]] + " [m]", ylabel="xyz"[plane[1]] + " [m]", title=f"contacts at t = {contacts.time:.3f} s")
-    figure.colorbar(lines, ax=axes, label="force of a contact [N]", shrink=0.8)
+    figure.colorbar(lines, ax=axes, label="force of a contact or restraint [N]", shrink=0.8)
     os.makedirs(os.path.dirname(os.path.abspath(file)), exist_ok=True)
     figure.savefig(file, bbox_inches="tight")
     plt.close(figure)
