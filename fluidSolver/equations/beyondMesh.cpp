@@ -195,8 +195,8 @@ bool BeyondMesh::isReached(const std::vector<Solid>& solids) const
 /// Positive in the liquid.
 double BeyondMesh::side(const FlowStepData& step, int node) const { return step.level ? (*step.level)[node] : step.state->alpha[node] - 0.5; }
 
-/// At the nodes of a patch that does not prescribe it: of the stream at t^n. Where a fluid is behind bodies alone it is the flow's, continued into them.
-std::vector<double> BeyondMesh::pressures(const FlowStepData& step, const BoundaryPatch& patch) const
+/// At the nodes of a patch that does not prescribe it: of the stream at t^n. Where a fluid is behind bodies alone it is p, the flow's, continued into them.
+void BeyondMesh::setStreamPressures(const FlowStepData& step, const BoundaryPatch& patch, std::vector<double>& p) const
 {
     const MeshPatch& faces = mesh_.patches[patch.meshPatch];
     const auto isGas = [&](int i) { return side(step, i) <= 0; };
@@ -217,11 +217,8 @@ std::vector<double> BeyondMesh::pressures(const FlowStepData& step, const Bounda
         }
     }
     halo_.sum(sums[0], 4);
-    std::vector<double> p = step.state->p;
-    extendLinearly(mesh_, halo_, *step.cover, p, bodyRings);
     for (int i : faces.faceNodes)
         if (sums[isGas(i)][1] > 0) p[i] = sums[isGas(i)][0]/sums[isGas(i)][1] + weight(i);
-    return p;
 }
 
 /// Those that are this rank's own, without tops and floors: a channel does not go on upward. pressure: at the nodes of the patch if it prescribes them, else at all.
@@ -327,12 +324,15 @@ double BeyondMesh::density(const Face& face, const FacePoint& shape) const { ret
 void BeyondMesh::addLoads(const FlowStepData& step, int nDof, std::vector<double>& loads, std::vector<double>& inertia) const
 {
     const std::vector<Solid>& solids = *step.solids;
+    std::vector<double> stream;     // of patches that do not prescribe the pressure
     for (const Passage& passage : passages_)
     {
         if (std::none_of(solids.begin(), solids.end(), [&](const Solid& solid) { return isReached(passage, solid); })) continue;
         const BoundaryPatch& patch = patches_[passage.patch];
         const bool isPrescribed = patch.pressure != BoundaryPatch::Pressure::Natural;
-        const std::vector<Face> faces = makeFaces(step, patch, isPrescribed ? (*step.patchValues)[passage.patch].pressure : pressures(step, patch));
+        if (!isPrescribed && stream.empty()) extendLinearly(mesh_, halo_, *step.cover, stream = step.state->p, bodyRings);
+        if (!isPrescribed) setStreamPressures(step, patch, stream);
+        const std::vector<Face> faces = makeFaces(step, patch, isPrescribed ? (*step.patchValues)[passage.patch].pressure : stream);
         const double share = isPrescribed ? weightShare(faces) : 1;
         for (std::size_t s = 0; s < solids.size(); ++s)
             if (isReached(passage, solids[s])) addSolid(faces, trueShape(solids[s]), share, &loads[s*nDof], &inertia[s*nDof*nDof]);

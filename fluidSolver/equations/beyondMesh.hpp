@@ -9,9 +9,10 @@
 /// by the divergence theorem; chi: 1 where the patch's point lies in the body, l: length of the body on the line from there along n. Where the patch prescribes
 /// the pressure, p and G are those of the prescribed values (a free overfall, p = 0, carries nothing). Else G is the weight of the fluid at the patch, and p that of water
 /// and gas at rest with the flow's mean at the patch, each by itself: not the flow's beside the body, which has the pressure by which the body's own acceleration is
-/// resisted on this side of the patch, and with that on the other side, too, a light body was driven on by what ought to hold it. The fluid there has to be moved by the body, too: without this inertia one of a hundredth of the fluid's density rose with a
-/// hundred times gravity as soon as it was outside. It is that of the displaced fluid, axis by axis times the ellipsoid's coefficient: with 1/a, 1/b, 1/c of half the body's
-/// extents 1/a/(1/b + 1/c) along the first (exact for elliptic cylinders and the sphere). Viscous forces and a wake beyond the mesh are left out.
+/// resisted on this side of the patch, and with that on the other side, too, a light body was driven on by what ought to hold it. The fluid there has to be moved by the body,
+/// too: without this inertia one of a hundredth of the fluid's density rose with a hundred times gravity as soon as it was outside. It is that of the displaced fluid, axis by
+/// axis times that of an ellipsoid, about: with half the body's extents a, b, c it is (1/a)/(1/b + 1/c) along the first (exact for elliptic cylinders and the sphere: Lamb,
+/// Hydrodynamics, 1932). Viscous forces and a wake beyond the mesh are left out.
 #pragma once
 
 #include "algebra/halo.hpp"
@@ -44,7 +45,7 @@ private:
 
     bool isReached(const Passage& passage, const Solid& solid) const;
     double side(const FlowStepData& step, int node) const;
-    std::vector<double> pressures(const FlowStepData& step, const BoundaryPatch& patch) const;
+    void setStreamPressures(const FlowStepData& step, const BoundaryPatch& patch, std::vector<double>& p) const;
     Face makeFace(const FlowStepData& step, const BoundaryPatch& patch, std::size_t f, const std::vector<double>& pressure) const;
     std::vector<Face> makeFaces(const FlowStepData& step, const BoundaryPatch& patch, const std::vector<double>& pressure) const;
     double weightShare(const std::vector<Face>& faces) const;
