@@ -34,8 +34,8 @@ struct NumericsControls
     // embedded boundary
     bool nitsche = true;            ///< false: the paper's pure penalty
     double nitscheGamma = 4;        ///< non-symmetric Nitsche: coefficient of mu/h
-    double separation = 0.5;        ///< no-slip solids: what they take where an unresolved stream along them slows down, over what the pressure takes
-    double wallInflow = 1;          ///< share of the term that gives fluid which enters through a solid's wall the wall's velocity (docs/numerics/3-solids.md, 3.2.1)
+    double separation = 0.7;        ///< no-slip solids: what they take where an unresolved stream along them slows down, over what the pressure takes
+    double wallInflow = 0;          ///< share of the term that gives fluid which enters through a solid's wall the wall's velocity (docs/numerics/3-solids.md, 3.2.1)
     double wallGamma = 16;          ///< nitscheGamma on no-slip patches whose layer is resolved; 0: their velocity is prescribed at the nodes
     bool wallLaw = false;           ///< on no-slip patches at least the traction of a turbulent layer
     double wallRoughness = 0;       ///< sand roughness in the wall law [m]
