@@ -77,11 +77,11 @@ TEST_CASE("without the term for fluid that enters through walls a bar whose stre
     usePetsc();
     NumericsControls with, without;
     with.separation = without.separation = 0;
-    without.wallInflow = 0;
+    with.wallInflow = 1;
     for (const int n : {3, 4})
     {
         const double drag = dragOfRow(with, n), less = dragOfRow(without, n);
-        std::printf("%d elements a diameter, separation 0: drag coefficient %.3f, wallInflow 0 %.3f\n", n, drag, less);
+        std::printf("%d elements a diameter, separation 0: drag coefficient %.3f, wallInflow 1 %.3f\n", n, less, drag);
         CHECK(less < 0.8*drag);
         CHECK(less > 0);
     }
