@@ -47,25 +47,41 @@ inline BodyDefinition makeBar(double density, const Vec3& position)
     return bar;
 }
 
-/// 1.2 s, until the flow is steady, of `held` and of the same bar fixed at `position`: its drag [N], and the largest number of repeats of a step of `held`.
+/// The same, round: fixed and held bars have different terms at sharp edges (docs/numerics/3-solids.md, 3.12), these none.
+inline BodyDefinition makeRoundBar(double density, const Vec3& position)
+{
+    BodyDefinition bar = makeBar(density, position);
+    bar.shape = makeCylinder(Vec3(0, 0, -0.5), Vec3(0, 0, 1), 0.5*side);
+    bar.volume *= 0.25*3.14159265358979;
+    bar.mass = density*bar.volume;
+    return bar;
+}
+
+/// 1.2 s, until the flow is steady, of `held`, then of the same bar held before its release as it stands (a penetration of contact away from where it began: on so coarse a mesh
+/// the drag changes by 0.2 % within an element; a round structure is cut otherwise, 3.5): its drag [N], and the largest number of repeats of a step of `held`.
 struct Beside { double drag = 0; int repeats = 0; };
 
-inline Beside runBesideFixed(Channel& channel, CoupledStep& held, const BodyDefinition& bar, const Vec3& position)
+inline Beside runBesideFixed(Channel& channel, CoupledStep& held, const BodyDefinition& bar)
 {
-    held.start(channel.rest(), true);
-    Solid fixed;
-    fixed.shape = bar.shape;
-    fixed.pose.position = position;
-    CoupledStep still(channel.mesh, channel.halo, channel.fluid, channel.controls, channel.patches, Scene({{fixed, -1, {}}}, {}, Vec3::Zero()), nullptr, channel.timers);
-    still.start(channel.rest(), true);
+    constexpr int steps = 60;
+    constexpr double dt = 0.02;
     Beside result;
-    for (int k = 0; k < 60; ++k)
+    held.start(channel.rest(), true);
+    for (int k = 0; k < steps; ++k)
     {
-        REQUIRE(still.step(0.02).isAccepted);
-        const StepResult step = held.step(0.02);
+        const StepResult step = held.step(dt);
         REQUIRE(step.isAccepted);
         result.repeats = std::max(result.repeats, step.solves - 1);
     }
+    DemSetup dem;
+    dem.bodies = {bar};
+    dem.bodies[0].pose = held.records()[0].pose;
+    dem.bodies[0].releaseTime = 1e9;
+    dem.laws = {ContactLaw()};
+    dem.box = {Vec3(0, 0, 0), Vec3(2, 1, 1)};
+    CoupledStep still(channel.mesh, channel.halo, channel.fluid, channel.controls, channel.patches, Scene({}, dem.bodies, Vec3::Zero()), &dem, channel.timers);
+    still.start(channel.rest(), true);
+    for (int k = 0; k < steps; ++k) REQUIRE(still.step(dt).isAccepted);
     result.drag = still.records()[0].fluidForce[0];
     return result;
 }

@@ -35,11 +35,11 @@ TEST_CASE("the stop carries the drag of the fixed bar")
 {
     const Vec3 position(0.7, 0.5, 0.5);
     Channel channel;
-    const BodyDefinition bar = makeBar(590, position);
+    const BodyDefinition bar = makeRoundBar(590, position);
     const DemSetup dem = makeDem(bar, position[0] + side/2 + 1e-9);
     CoupledStep held(channel.mesh, channel.halo, channel.fluid, channel.controls, channel.patches,
         Scene({}, {bar}, Vec3::Zero()), &dem, channel.timers);
-    const auto [drag, repeats] = runBesideFixed(channel, held, bar, position);
+    const auto [drag, repeats] = runBesideFixed(channel, held, bar);
     const double contact = held.records()[0].contactForce[0];
     std::printf("drag fixed %.4f N, contact force held %.4f N (%.3f %%), largest number of repeats %d\n", drag, contact,
         100*(-contact/drag - 1), repeats);

@@ -39,7 +39,7 @@ TEST_CASE("a tether holds a bar in a current with the drag of the bar fixed")
     dem.box = {Vec3(0, 0, 0), Vec3(2, 1, 1)};
     dem.restraints = {tether(Vec3(-barInCurrent::side/2, 0, 0), Vec3(0.3, 0.5, 0.5), 0.3, 2e6, 1e4)};
     CoupledStep held(channel.mesh, channel.halo, channel.fluid, channel.controls, channel.patches, Scene({}, dem.bodies, Vec3::Zero()), &dem, channel.timers);
-    const auto [drag, repeats] = barInCurrent::runBesideFixed(channel, held, dem.bodies[0], position);
+    const auto [drag, repeats] = barInCurrent::runBesideFixed(channel, held, dem.bodies[0]);
     const RestraintLoad line = held.coupling()->restraintLoads()[0];
     const BodyRecord record = held.records()[0];
     std::printf("drag fixed %.4f N, of the held bar %.4f N, tension %.4f N (%.3f %%), stretched by %.3g m, speed %.2g m/s, turned by %.2g, largest number of repeats %d\n", drag, record.fluidForce[0],
