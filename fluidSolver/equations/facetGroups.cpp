@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "equations/facetGroups.hpp"
 
+#include "core/roomyVector.hpp"
+
 #include <algorithm>
 
 namespace flotsam
@@ -49,28 +51,41 @@ void integrate(const CutFacet& facet, FacetGroup<D>& group)
 } // namespace
 
 template<int D>
-std::vector<FacetGroup<D>> groupFacets(const Cover& cover, int nInner)
+const std::vector<FacetGroup<D>>& FacetGroups<D>::of(const Cover& cover, int nInner, std::size_t nSolids)
 {
-    std::vector<FacetGroup<D>> groups;
+    found_.clear();
+    reserveRoom(found_, cover.facets.size());
     for (std::size_t c = 0; c < cover.cuts.size(); ++c)
     {
         const CutElement& cut = cover.cuts[c];
         if (cut.element >= nInner) continue;
-        const std::size_t first = groups.size();
+        const std::size_t first = found_.size();
         for (int f = cut.facetStart; f < cut.facetEnd; ++f)
         {
             const CutFacet& facet = cover.facets[f];
             std::size_t g = first;
-            while (g < groups.size() && !looksAlike(groups[g], facet)) ++g;
-            if (g == groups.size()) groups.push_back(emptyGroup<D>(cut.element, int(c), facet));
-            integrate(facet, groups[g]);
+            while (g < found_.size() && !looksAlike(found_[g], facet)) ++g;
+            if (g == found_.size()) found_.push_back(emptyGroup<D>(cut.element, int(c), facet));
+            integrate(facet, found_[g]);
         }
     }
-    std::stable_sort(groups.begin(), groups.end(), [](const auto& l, const auto& r) { return l.solid < r.solid; });
-    return groups;
+    sortBySolid(nSolids);
+    return sorted_;
 }
 
-template std::vector<FacetGroup<2>> groupFacets<2>(const Cover&, int);
-template std::vector<FacetGroup<3>> groupFacets<3>(const Cover&, int);
+/// By counting: those of one solid keep their order.
+template<int D>
+void FacetGroups<D>::sortBySolid(std::size_t nSolids)
+{
+    next_.assign(nSolids + 1, 0);
+    for (const FacetGroup<D>& group : found_) ++next_[group.solid + 1];
+    for (std::size_t s = 1; s <= nSolids; ++s) next_[s] += next_[s - 1];
+    reserveRoom(sorted_, found_.size());
+    sorted_.resize(found_.size());
+    for (const FacetGroup<D>& group : found_) sorted_[next_[group.solid]++] = group;
+}
+
+template class FacetGroups<2>;
+template class FacetGroups<3>;
 
 } // namespace flotsam

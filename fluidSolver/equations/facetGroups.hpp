@@ -21,8 +21,19 @@ struct FacetGroup
     double ofMeans(int a, int b) const { return m1[a]*m1[b]/area; }
 };
 
-/// In the order of the solids; of the first `nInner` elements.
+/// Those of a cover; its memory is kept from step to step.
 template<int D>
-std::vector<FacetGroup<D>> groupFacets(const Cover& cover, int nInner);
+class FacetGroups
+{
+public:
+    /// In the order of the solids; of the first `nInner` elements. Valid until the next one.
+    const std::vector<FacetGroup<D>>& of(const Cover& cover, int nInner, std::size_t nSolids);
+
+private:
+    void sortBySolid(std::size_t nSolids);
+
+    std::vector<FacetGroup<D>> found_, sorted_;
+    std::vector<std::size_t> next_; // of each solid: place of its next group
+};
 
 } // namespace flotsam

@@ -15,6 +15,7 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <tuple>
 
 namespace flotsam
 {
@@ -92,7 +93,7 @@ private:
     template<int D> void assembleWalls();
     template<int D> void assembleOwnLoads();
     void setBeyondInertia(std::size_t s, const FreeBody& body, double dt);
-    template<int D> void addSurfaceLoad(const FacetPressure& facet);
+    template<int D> void addSurfaceLoads(const std::vector<FacetPressure>& facets);
     template<int D> void addFacetGroup(const FacetGroup<D>& group, const Solid& solid, const Turning<D>& turning, const double* q, SolidCoupling& coupling);
     template<int D> void sumSwept();
     static constexpr double layerThickness = 0.25;  // of unresolved layers on walls and between solids, over the size of the elements there
@@ -190,6 +191,7 @@ private:
     std::vector<double> ownLoads_;              // nDof of each solid: of the fluid besides the unknowns
     std::vector<double> beyondInertia_;         // nDof*nDof of each solid: see BeyondMesh; empty: no solid reaches there
     std::vector<double> beyondRate_, beyondHistory_; // of the free ones' rows: times that inertia and the motion; and without it (nDof each)
+    std::tuple<FacetGroups<2>, FacetGroups<3>> facetGroups_;
     std::vector<double> swept_;                 // owned nodes: what moving surfaces take from FlowSystem::inertia, a half [kg/s]
     std::vector<double> sweptOfCut_;            // that half at the corners of every cut element, negative where fluid appears
     std::vector<char> carriesMass_, isOpen_;    // nodes of varying elements; nodes on open patches

@@ -6,24 +6,54 @@
 namespace flotsam
 {
 
-/// The surface's own pressure (surfacePressure.hpp) on a facet. What solids cover of each other feels it where it feels the pressure itself.
-template<int D>
-void FlowEquation::addSurfaceLoad(const FacetPressure& facet)
+namespace
 {
-    constexpr int N = D + 1, nDof = RigidArm<D>::nDof;
-    if (!mesh_.isOwnedElement[facet.element]) return;
-    if (facet.isCovered && (isLayerNode_.empty() || !isOfLayer<D>(facet.element))) return;
-    const Solid& solid = (*step_.solids)[facet.solid];
-    const Turning<D> turning(mesh_, solid);
-    double* load = &ownLoads_[std::size_t(facet.solid)*nDof];
-    for (int a = 0; a < N; ++a)
+
+/// Of facets that follow each other most are pieces of one face of a solid in one element: what its nodes' arms are is found once for them.
+template<int D>
+struct PressureArms
+{
+    const FacetPressure* of = nullptr;
+    RigidArm<D> arm[D + 1];
+
+    bool isOf(const FacetPressure& facet) const
     {
-        RigidArm<D> arm(mesh_, solid, mesh_.elements[std::size_t(facet.element)*N + a]);
-        arm.onSurface(turning, facet.normal);
-        double force[D];
-        for (int d = 0; d < D; ++d) force[d] = facet.first[a]*facet.normal[d];
-        arm.template addLoads<1>(force, load);
-        arm.template removeTurning<1>(0, force, load);
+        return of && of->element == facet.element && of->solid == facet.solid && std::equal(of->normal, of->normal + D, facet.normal);
+    }
+
+    void set(const FacetPressure& facet, const SimplexMesh& mesh, const Solid& solid)
+    {
+        of = &facet;
+        const Turning<D> turning(mesh, solid);
+        for (int a = 0; a <= D; ++a)
+        {
+            arm[a] = RigidArm<D>(mesh, solid, mesh.elements[std::size_t(facet.element)*(D + 1) + a]);
+            arm[a].onSurface(turning, facet.normal);
+        }
+    }
+};
+
+} // namespace
+
+/// The surface's own pressure (surfacePressure.hpp) on the solids. What they cover of each other feels it where it feels the pressure itself.
+template<int D>
+void FlowEquation::addSurfaceLoads(const std::vector<FacetPressure>& facets)
+{
+    constexpr int nDof = RigidArm<D>::nDof;
+    PressureArms<D> arms;
+    for (const FacetPressure& facet : facets)
+    {
+        if (!mesh_.isOwnedElement[facet.element]) continue;
+        if (facet.isCovered && (isLayerNode_.empty() || !isOfLayer<D>(facet.element))) continue;
+        if (!arms.isOf(facet)) arms.set(facet, mesh_, (*step_.solids)[facet.solid]);
+        double* load = &ownLoads_[std::size_t(facet.solid)*nDof];
+        for (int a = 0; a <= D; ++a)
+        {
+            double force[D];
+            for (int d = 0; d < D; ++d) force[d] = facet.first[a]*facet.normal[d];
+            arms.arm[a].template addLoads<1>(force, load);
+            arms.arm[a].template removeTurning<1>(0, force, load);
+        }
     }
 }
 
@@ -32,8 +62,7 @@ template<int D>
 void FlowEquation::assembleOwnLoads()
 {
     constexpr int nDof = RigidArm<D>::nDof;
-    if (step_.surfacePressure)
-        for (const FacetPressure& facet : *step_.surfacePressure) addSurfaceLoad<D>(facet);
+    if (step_.surfacePressure) addSurfaceLoads<D>(*step_.surfacePressure);
     const bool isBeyond = step_.solids && beyond_.isReached(*step_.solids);
     beyondInertia_.assign(isBeyond ? ownLoads_.size()*nDof : 0, 0.0);
     if (isBeyond)

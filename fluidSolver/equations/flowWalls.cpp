@@ -127,7 +127,7 @@ void FlowEquation::assembleWalls()
     const std::vector<Solid>& solids = *step_.solids;
     system_.solids.resize(solids.size());
     for (SolidCoupling& coupling : system_.solids) coupling.clear();
-    const std::vector<FacetGroup<D>> groups = groupFacets<D>(*step_.cover, mesh_.nInnerElements);
+    const std::vector<FacetGroup<D>>& groups = std::get<FacetGroups<D>>(facetGroups_).of(*step_.cover, mesh_.nInnerElements, solids.size());
     placeInSolid_.resize(mesh_.nNodes, -1);
     sweptOfCut_.assign(step_.cover->cuts.size()*(D + 1), 0.0);
     ownLoads_.assign(solids.size()*nDof, 0.0);

@@ -92,6 +92,7 @@ struct ProfileElement
     double potential[D + 1], pressure[D + 1], level[D + 1]; // g.(x_k - x_G), rho_k times that, of the surface
     bool isAny;
 
+    ProfileElement() = default;
     ProfileElement(const SimplexMesh& mesh, const FluidProperties& fluid, const InterfacePlanes& planes, const std::vector<double>& ofSurface,
         const std::vector<double>& levels, int e)
     {
@@ -136,10 +137,12 @@ void addSurfacePressureT(const SimplexMesh& mesh, const FluidProperties& fluid, 
             addDifference<D>(profile, fluid, facet.area, cornersOf<D>(facet.shape), p, result);
         }
     }
+    int element = -1;   // that `profile` is of: pieces in one element follow each other
+    ProfileElement<D> profile;
     for (const CoveredFacet& facet : cover.coveredFacets)
     {
         const double area = std::hypot(facet.area[0], facet.area[1], D == 3 ? facet.area[2] : 0.0);
-        const ProfileElement<D> profile(mesh, fluid, planes, ofSurface, levels, facet.element);
+        if (facet.element != element) profile = ProfileElement<D>(mesh, fluid, planes, ofSurface, levels, element = facet.element);
         if (!profile.isAny || area == 0) continue;
         FacetPressure p{facet.element, facet.solid, {}, {}, true};
         for (int d = 0; d < D; ++d) p.normal[d] = facet.area[d]/area;

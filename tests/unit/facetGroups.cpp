@@ -34,7 +34,8 @@ TEST_CASE("pieces of one face are one group whatever the round-off of their norm
     cover.cuts[0].element = 0;
     cover.cuts[0].facetStart = 0;
     cover.cuts[0].facetEnd = 3;
-    const std::vector<FacetGroup<2>> groups = groupFacets<2>(cover, 1);
+    FacetGroups<2> ofCover;
+    const std::vector<FacetGroup<2>>& groups = ofCover.of(cover, 1, 1);
     REQUIRE(groups.size() == 2);
     CHECK(groups[0].area == near(3, 1e-14));
     CHECK(groups[1].area == near(4, 1e-14));
