@@ -3,6 +3,7 @@
 
 #include "core/patchFaces.hpp"
 #include "equations/faceMoments.hpp"
+#include "geometry/meanCover.hpp"
 
 #include <algorithm>
 
@@ -146,24 +147,31 @@ void TransportBoundary::close(const std::vector<double>& u, const std::vector<do
     }
     if (cover && !closing_.empty())     // through the solids' surfaces, by which the dual cell changes its volume
     {
-        for (const CutFacet& facet : cover->facets)
+        for (const CutElement& cut : cover->cuts)
         {
-            const int* nodes = &mesh_.elements[std::size_t(facet.element)*n];
-            for (int q = 0; q < facet.nPoints; ++q)
+            const int* nodes = &mesh_.elements[std::size_t(cut.element)*n];
+            if (std::none_of(nodes, nodes + n, [&](int i) { return closingIndex_[i] >= 0; }))
             {
-                double through = 0;
-                for (int a = 0; a < n; ++a)
+                continue;
+            }
+            forEachFacet(*cover, cut.element, [&](const CutFacet& facet, double share)
+            {
+                for (int q = 0; q < facet.nPoints; ++q)
                 {
-                    for (int d = 0; d < dim; ++d)
+                    double through = 0;
+                    for (int a = 0; a < n; ++a)
                     {
-                        through += facet.weight[q]*facet.shape[q][a]*u[std::size_t(nodes[a])*dim + d]*facet.normal[d];
+                        for (int d = 0; d < dim; ++d)
+                        {
+                            through += share*facet.weight[q]*facet.shape[q][a]*u[std::size_t(nodes[a])*dim + d]*facet.normal[d];
+                        }
+                    }
+                    for (int a = 0; a < n; ++a)
+                    {
+                        add(nodes[a], facet.shape[q][a]*through);
                     }
                 }
-                for (int a = 0; a < n; ++a)
-                {
-                    add(nodes[a], facet.shape[q][a]*through);
-                }
-            }
+            });
         }
     }
     for (std::size_t c = 0; c < closing_.size(); ++c)

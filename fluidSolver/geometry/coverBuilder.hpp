@@ -263,6 +263,7 @@ private:
     std::vector<Polyhedron> polyhedra_;
     double longest_ = 0;                // element length of the whole mesh
     std::vector<SharpPart> sharpParts_;   // by element
+    std::vector<int> firstSharpPart_;   // nElements, empty at first: of an element, -1: it has none
     std::vector<int> sharpElements_;    // with sharp parts or nodes nearest to sharp solids
     mutable std::vector<SharpElement> sharpElement_;  // nElements, empty while there are none; which are clear is found as they are cut
     std::vector<char> isNearOther_;     // nNodes, see markOthers()

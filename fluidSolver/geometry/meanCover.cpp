@@ -28,18 +28,6 @@ void addHalf(const SimplexMesh& mesh, const Cover& cover, int e, CutElement& sum
     }
 }
 
-void addHalfFacets(const Cover& cover, int e, std::vector<CutFacet>& facets)
-{
-    if (cover.state[e] != ElementState::Cut) return;
-    const CutElement& cut = cover.cuts[cover.cutIndex[e]];
-    for (int f = cut.facetStart; f < cut.facetEnd; ++f)
-    {
-        CutFacet& facet = facets.emplace_back(cover.facets[f]);
-        facet.area *= 0.5;
-        for (double& weight : facet.weight) weight *= 0.5;
-    }
-}
-
 } // namespace
 
 void keepForMean(const Cover& cover, Cover& kept)
@@ -61,7 +49,6 @@ void setMeanCover(const SimplexMesh& mesh, const Cover& start, const Cover& end,
     mean.isActiveNode = start.isActiveNode; // the phase field that is moved has values of the fluid there
     mean.cutIndex.assign(mesh.nElements, -1);
     mean.cuts.clear();
-    mean.facets.clear();
     for (int e = 0; e < mesh.nElements; ++e)
     {
         if (start.state[e] == end.state[e] && end.state[e] != ElementState::Cut) continue;
@@ -71,10 +58,6 @@ void setMeanCover(const SimplexMesh& mesh, const Cover& start, const Cover& end,
         cut.element = e;
         addHalf(mesh, start, e, cut);
         addHalf(mesh, end, e, cut);
-        cut.facetStart = static_cast<int>(mean.facets.size());
-        addHalfFacets(start, e, mean.facets);
-        addHalfFacets(end, e, mean.facets);
-        cut.facetEnd = static_cast<int>(mean.facets.size());
     }
 }
 

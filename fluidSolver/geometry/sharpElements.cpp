@@ -10,6 +10,7 @@ namespace flotsam
 
 void CoverBuilder::findSharpParts(const std::vector<Solid>& solids)
 {
+    for (const SharpPart& part : sharpParts_) firstSharpPart_[part.element] = -1;
     sharpParts_.clear();
     nodeFaces_.clear(); // of the poses before
     for (std::size_t s = 0; s < solids.size(); ++s)
@@ -19,6 +20,8 @@ void CoverBuilder::findSharpParts(const std::vector<Solid>& solids)
         forEachLocalAlone(solids[s], samples_[s], add, [](int) { return true; });
     }
     std::sort(sharpParts_.begin(), sharpParts_.end(), [](const SharpPart& a, const SharpPart& b) { return a.element != b.element ? a.element < b.element : a.solid < b.solid; });
+    if (!sharpParts_.empty()) firstSharpPart_.resize(mesh_.nElements, -1);
+    for (std::size_t k = sharpParts_.size(); k-- > 0;) firstSharpPart_[sharpParts_[k].element] = static_cast<int>(k);
 }
 
 /// Of the solid alone, as visitCutAlone() cuts it. A node as deep inside as that has far more than negligiblePart around it: no need to look.
@@ -44,10 +47,11 @@ bool CoverBuilder::hasPartBetweenNodes(const Solid& solid, int element)
     return false;
 }
 
-/// Of those sorted by element: the first one of this element or after it, or the end.
+/// Of those sorted by element: the first one of this element, or the end.
 const CoverBuilder::SharpPart* CoverBuilder::partsIn(int element) const
 {
-    return std::lower_bound(sharpParts_.data(), sharpParts_.data() + sharpParts_.size(), element, [](const SharpPart& p, int e) { return p.element < e; });
+    const int first = firstSharpPart_.empty() ? -1 : firstSharpPart_[element];
+    return sharpParts_.data() + (first < 0 ? sharpParts_.size() : first);
 }
 
 CoverBuilder::SharpElement CoverBuilder::kindOf(const Cover& cover, const std::vector<Solid>& solids, int element) const
