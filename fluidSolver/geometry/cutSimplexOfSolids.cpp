@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// The cut by the faces of one solid or several: edges and corners stay sharp.
+#include "geometry/clippedSimplex.hpp"
 #include "geometry/facetPieces.hpp"
 #include "geometry/simplexDivision.hpp"
 
@@ -40,6 +41,7 @@ public:
     /// The solid part instead, and its facets: of one solid.
     void cutSolid(EdgeCut<dim>& result)
     {
+        if (dim == 3 && clipSolid(result)) return;
         SimplexPoint<dim> whole[dim + 1] = {};
         for (int a = 0; a <= dim; ++a) whole[a].n[a] = 1;
         begin(result);
@@ -74,6 +76,24 @@ private:
     {
         result_ = &result;
         result.clear();
+    }
+
+    /// By polygons instead of simplices. False: round-off, see ClippedSimplex.
+    bool clipSolid(EdgeCut<dim>& result)
+    {
+        begin(result);
+        if constexpr (dim == 3)
+        {
+            ClippedSimplex solid;
+            for (int face = 0; face < faceEnd_[0]; ++face)
+            {
+                if (!solid.clip(distances_ + face * (dim + 1), face)) return false;
+                if (solid.isEmpty()) return true;
+            }
+            solid.addTo(result, volume_);
+            solid.forFacets([&](const Point* corners, int face) { addFacet(corners, distances_ + face * (dim + 1), 0); });
+        }
+        return true;
     }
 
     /// Of planes that two solids nearly have in common, on the same or on opposite sides of it, the second becomes the first. What is on a face to round-off is inside of the other then, all of it. With
