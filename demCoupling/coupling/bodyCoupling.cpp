@@ -10,11 +10,10 @@ namespace flotsam
 namespace
 {
 
-std::vector<Load> difference(const std::vector<Load>& a, const std::vector<Load>& b)
+void setDifference(const std::vector<Load>& a, const std::vector<Load>& b, std::vector<Load>& result)
 {
-    std::vector<Load> result(a.size());
+    result.resize(a.size());
     for (std::size_t k = 0; k < a.size(); ++k) result[k] = a[k] - b[k];
-    return result;
 }
 
 /// With the last load alone what the tolerance lets pass grows faster (docs/contact.md).
@@ -39,6 +38,7 @@ BodyCoupling::BodyCoupling(const DemSetup& setup, const CouplingControls& contro
         isHeld_.push_back(body.entersAtRelease);
         presence_.push_back(body.entersAtRelease ? Presence::Awaited : Presence::There);
     }
+    notePresence();
     states_.resize(n);
     result_.resize(n);
     guarded([&]
@@ -57,7 +57,8 @@ BodyCoupling::BodyCoupling(const DemSetup& setup, const CouplingControls& contro
 BodyCoupling::~BodyCoupling() = default;
 
 /// Runs `work` on rank 0; an error there ends on every rank in the same exception.
-void BodyCoupling::guarded(const std::function<void()>& work) const
+template<class Work>
+void BodyCoupling::guarded(const Work& work) const
 {
     std::string message;
     if (rank_ == 0)
@@ -96,12 +97,9 @@ void BodyCoupling::runEngine(double duration, const std::vector<Load>& loads)
         engine_->setLoads(loads);
         engine_->tallyPairs(tallies_);
         engine_->advance(duration);
-        result_ = engine_->states();
-        newContact_ = engine_->meanContactLoads();
-        touch_.wallLoads = engine_->meanWallLoads();
-        touch_.peaks = engine_->peakContactForces();
-        touch_.wallPeaks = engine_->peakWallForces();
-        touch_.groupPeaks = engine_->peakGroupForces();
+        engine_->findStates(result_);
+        engine_->findMeans(newContact_, touch_.wallLoads);
+        engine_->findPeaks(touch_.peaks, touch_.wallPeaks, touch_.groupPeaks);
         touch_.take(engine_->contacts(), setup_);
         touch_.restraints = engine_->restraintLoads();
         if (!engine_->hasContact()) newContact_.assign(newContact_.size(), Load()); // round-off of a free flight
@@ -109,6 +107,14 @@ void BodyCoupling::runEngine(double duration, const std::vector<Load>& loads)
     });
     hasMeanContacts_ = tallies_;
     shareResults();
+}
+
+/// Beside contact, as it is guessed.
+void BodyCoupling::runEngineWith(const std::vector<Load>& given)
+{
+    setDifference(contactGuess(), smoothing_, contactPart_);
+    answer_.findEngineLoads(given, contactPart_, engineLoads_);
+    runEngine(dt_, engineLoads_);
 }
 
 void BodyCoupling::begin(double time, double dt, double far)
@@ -119,13 +125,13 @@ void BodyCoupling::begin(double time, double dt, double far)
     probes_.begin();
     touchAtStart_ = touch_;
     springSpeed_ = largestSpringSpeed();
-    std::vector<char> held(isHeld_);
-    for (int b = 0; b < nBodies(); ++b) held[b] = !isDue(b, time) || !isThere(b);
+    holds_ = isHeld_;
+    for (int b = 0; b < nBodies(); ++b) holds_[b] = !isDue(b, time) || !isThere(b);
     isAtStart_ = true;
-    hold(held);
+    hold(holds_);
     guessAtStart_ = contactGuess();
     moveTo(time + dt);
-    guarded([&] { saved_ = engine_->save(); });
+    guarded([&] { engine_->save(saved_); });
     for (int b = 0; b < nBodies(); ++b) predicted_[b] = isHeld_[b] ? states_[b] : drifted(b);
     if (!check_.strayBody(states_, predicted_, far).empty()) predictContacts();
 }
@@ -162,7 +168,7 @@ void BodyCoupling::moveTo(double time)
 /// Bodies that touch something on their way end where the engine puts them with the last fluid loads.
 void BodyCoupling::predictContacts()
 {
-    runEngine(dt_, answer_.engineLoads(lastLoads_, difference(contactGuess(), smoothing_)));
+    runEngineWith(lastLoads_);
     isAtStart_ = false;
     for (int b = 0; b < nBodies(); ++b)
         if (!newContact_[b].isZero()) predicted_[b].pose = result_[b].pose;
@@ -205,7 +211,8 @@ void BodyCoupling::takeOut(const std::vector<char>& bodies)
         answer_.drop(b);
     }
     iteration_.setGuess(guess);
-    smoothing_ = difference(guess, contact_);
+    setDifference(guess, contact_, smoothing_);
+    notePresence();
     hold(held);
     guarded([&] { engine_->setGone(areAway()); });
 }
@@ -213,14 +220,14 @@ void BodyCoupling::takeOut(const std::vector<char>& bodies)
 void BodyCoupling::letIn(int body)
 {
     presence_[body] = Presence::There;
+    notePresence();
     guarded([&] { engine_->setGone(areAway()); });
 }
 
-std::vector<char> BodyCoupling::areAway() const
+void BodyCoupling::notePresence()
 {
-    std::vector<char> flags;
-    for (const Presence p : presence_) flags.push_back(p != Presence::There);
-    return flags;
+    areAway_.resize(presence_.size());
+    std::transform(presence_.begin(), presence_.end(), areAway_.begin(), [](Presence p) { return p != Presence::There; });
 }
 
 /// The body after the step if its smooth motion's last acceleration went on. Its pose is what the fluid is cut with.
@@ -263,10 +270,10 @@ ContactAnswer BodyCoupling::correct(const std::vector<Load>& loads)
     loads_ = loads;
     if (!isAtStart_) guarded([&] { engine_->restore(saved_); });
     isAtStart_ = false;
-    runEngine(dt_, answer_.engineLoads(loads_, difference(contactGuess(), smoothing_)));
+    runEngineWith(loads_);
     smooth_->find(states_, result_, newContact_, dt_, answer_.areKnown());
     if (chooseProbes()) return ContactAnswer::AsksFluid;
-    smoothing_ = difference(smooth_->drive(), newContact_);
+    setDifference(smooth_->drive(), newContact_, smoothing_);
     return iteration_.take(smooth_->drive(), answer_) ? ContactAnswer::Holds : ContactAnswer::Changes;
 }
 
@@ -292,31 +299,31 @@ void BodyCoupling::finishProbes()
 
 void BodyCoupling::accept(const std::vector<Motion>& inFluid)
 {
-    std::vector<Load> guess(states_.size());
-    std::vector<char> isFound(states_.size());
+    newGuess_.assign(states_.size(), Load());
+    isFound_.assign(states_.size(), 0);
     for (int b = 0; b < nBodies(); ++b)
     {
         const Motion& before = smooth_->states()[b].motion;
         lastChanges_[b] = {(inFluid[b].velocity - before.velocity)/dt_, (inFluid[b].angularVelocity - before.angularVelocity)/dt_};
         lastLoads_[b] = isHeld_[b] ? Load() : loads_[b]; // what holds a body takes its loads
-        isFound[b] = answer_.isLight(b) && !answer_.isKnown(b);
+        isFound_[b] = answer_.isLight(b) && !answer_.isKnown(b);
         if (newContact_[b].isZero()) answer_.drop(b);
-        else if (answer_.isKnown(b)) guess[b] = newContact_[b];
-        else guess[b] = isFound[b] ? smooth_->drive()[b] : mean(newContact_[b], contact_[b]);
+        else if (answer_.isKnown(b)) newGuess_[b] = newContact_[b];
+        else newGuess_[b] = isFound_[b] ? smooth_->drive()[b] : mean(newContact_[b], contact_[b]);
     }
-    smoothing_ = difference(guess, newContact_);
+    setDifference(newGuess_, newContact_, smoothing_);
     isJustReleased_.assign(isJustReleased_.size(), 0);
     states_ = result_;
     contact_ = newContact_;
-    smooth_->accept(inFluid, isFound);
-    iteration_.setGuess(guess);
+    smooth_->accept(inFluid, isFound_);
+    iteration_.setGuess(newGuess_);
 }
 
 void BodyCoupling::reject()
 {
     guarded([&] { engine_->restore(saved_); });
     iteration_.setGuess(guessAtStart_); // that of the failed step would spoil the next prediction
-    smoothing_ = difference(guessAtStart_, contact_);
+    setDifference(guessAtStart_, contact_, smoothing_);
     answer_.setShares(sharesAtStart_);
     touch_ = touchAtStart_;
     hasMeanContacts_ = false;
@@ -363,10 +370,11 @@ void BodyCoupling::restore(const CouplingRecord& stored, const std::function<voi
     lastChanges_ = stored.lastChanges;
     contact_ = stored.contact;
     iteration_.setGuess(stored.guess);
-    smoothing_ = difference(stored.guess, contact_);
+    setDifference(stored.guess, contact_, smoothing_);
     answer_.setShares(stored.shares);
     isHeld_ = stored.isHeld;
     presence_ = stored.presence;
+    notePresence();
     guarded([&]
     {
         engine_->setHeld(isHeld_);

@@ -91,7 +91,7 @@ public:
     void letIn(int body);
     Presence presence(int body) const { return presence_[body]; }
     bool isThere(int body) const { return presence_[body] == Presence::There; }
-    std::vector<char> areAway() const;  ///< per body: has left, or is to come
+    const std::vector<char>& areAway() const { return areAway_; }  ///< per body: has left, or is to come
     int count(Presence p) const { return int(std::count(presence_.begin(), presence_.end(), p)); }
     bool isDue(int body, double time) const { return time >= setup_.bodies[body].releaseTime - 1e-9; }
     /// Beyond the mesh's bounding box by its diagonal: wherever it flies, it has left.
@@ -113,6 +113,8 @@ public:
 
 private:
     void runEngine(double duration, const std::vector<Load>& loads);
+    void runEngineWith(const std::vector<Load>& given);
+    void notePresence();
     void shareResults();
     CouplingRecord record() const;
     void restore(const CouplingRecord& stored, const std::function<void()>& restoreEngine);
@@ -122,7 +124,7 @@ private:
     bool chooseProbes();
     void hold(const std::vector<char>& isHeld);
     void moveTo(double time);
-    void guarded(const std::function<void()>& work) const;
+    template<class Work> void guarded(const Work& work) const;
 
     DemSetup setup_;
     CouplingControls controls_;
@@ -142,6 +144,9 @@ private:
     bool tallies_ = false, hasMeanContacts_ = true; // before the first step there are none
     std::vector<char> isHeld_, isJustReleased_;
     std::vector<Presence> presence_;
+    std::vector<char> areAway_;                 // by presence_
+    std::vector<Load> contactPart_, engineLoads_, newGuess_;    // work, as the next two
+    std::vector<char> holds_, isFound_;
     ContactIteration iteration_;
     FluidAnswer answer_;
     FluidProbes probes_;

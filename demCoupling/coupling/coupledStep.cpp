@@ -57,15 +57,15 @@ void CoupledStep::start(FlowState state, bool isSharp)
     fluid_.start(std::move(state), isSharp);
     scene_.place(time, coupling_.get());
     for (int k = 1; k <= cutsFromNothing; ++k) cut(k == cutsFromNothing);
-    wet_ = fluid_.wetFractions();
+    fluid_.findWetFractions(wet_);
     loads_.assign(scene_.solids().size(), {Vec3::Zero(), Vec3::Zero()});
 }
 
 StepResult CoupledStep::step(double dt)
 {
     StepResult result;
-    const std::vector<double> sceneBefore = scene_.save();
-    const auto loadsBefore = loads_;
+    scene_.save(sceneBefore_);
+    loadsBefore_ = loads_;
     const double time = fluid_.state().time;
     if (coupling_)
     {
@@ -95,8 +95,8 @@ StepResult CoupledStep::step(double dt)
         fluid_.rejectStep();
         if (coupling_) coupling_->reject();
         forgetContact();
-        scene_.restore(sceneBefore);
-        loads_ = loadsBefore;
+        scene_.restore(sceneBefore_);
+        loads_ = loadsBefore_;
         restoreGeometry();
         return result;
     }
@@ -104,11 +104,12 @@ StepResult CoupledStep::step(double dt)
     fluid_.endStep();
     if (coupling_)
     {
-        const std::vector<Motion> motions = fluid_.solidMotions();
-        coupling_->accept({motions.begin() + scene_.nStructures(), motions.end()});
+        fluid_.findSolidMotions(motions_);
+        motions_.erase(motions_.begin(), motions_.begin() + scene_.nStructures());
+        coupling_->accept(motions_);
         takeOutLeavers();
     }
-    wet_ = fluid_.wetFractions();
+    fluid_.findWetFractions(wet_);
     result.waiting.swap(waiting_);
     result.isAccepted = true;
     return result;
@@ -133,13 +134,15 @@ void CoupledStep::letIn(double time)
 void CoupledStep::takeOutLeavers()
 {
     const Cover& cover = builder_->cover();
-    std::vector<char> mayBe(coupling_->nBodies(), 0);
+    std::vector<char>& mayBe = mayBeOutside_;
+    mayBe.assign(coupling_->nBodies(), 0);
     for (int b = 0; b < coupling_->nBodies(); ++b)
     {
         const int s = scene_.nStructures() + b;
         mayBe[b] = !coupling_->isHeld(b) && cover.solidVolume[s] == 0 && cover.solidArea[s] == 0;
     }
-    std::vector<char> leavers = exit_->findOutside(coupling_->states(), mayBe);
+    std::vector<char>& leavers = mayBe;
+    if (std::find(leavers.begin(), leavers.end(), 1) != leavers.end()) leavers = exit_->findOutside(coupling_->states(), leavers);
     for (int b = 0; b < coupling_->nBodies(); ++b) leavers[b] = leavers[b] || (!coupling_->isHeld(b) && coupling_->isFarOff(b));
     if (std::find(leavers.begin(), leavers.end(), 1) != leavers.end()) coupling_->takeOut(leavers);
 }
@@ -150,7 +153,8 @@ SolveReport CoupledStep::solveFlow(StepResult& result, double enough)
     SolveReport report;
     {
         PhaseTimer t(timers_, Phase::FlowSolve);
-        report = fluid_.solve(coupling_ ? scene_.freeBodies(*coupling_, fluid_.newLoadShare()) : std::vector<FreeBody>(), enough);
+        if (coupling_) scene_.findFreeBodies(*coupling_, fluid_.newLoadShare(), freeBodies_);
+        report = fluid_.solve(freeBodies_, enough);
     }
     result.unbalancedVolume = report.unbalancedVolume*fluid_.timeStep();
     result.linearIterations += report.iterations;
@@ -160,7 +164,7 @@ SolveReport CoupledStep::solveFlow(StepResult& result, double enough)
         result.failure = "the linear solver did not converge";
     if (scene_.isEmpty() || !result.failure.empty()) return report;
     PhaseTimer t(timers_, Phase::Exchange);
-    loads_ = fluid_.solidLoads();
+    fluid_.findSolidLoads(loads_);
     return report;
 }
 
@@ -200,8 +204,9 @@ void CoupledStep::solveWithContact(StepResult& result)
 /// Whether the fluid is to be solved again, with another contact load or because it was asked for what it answers to others.
 bool CoupledStep::correctContact(StepResult& result)
 {
-    const auto bodyLoads = [&] { return scene_.bodyLoads(loads_, *coupling_, fluid_.newLoadShare()); };
-    const std::vector<Load> loads = bodyLoads();
+    const auto findLoads = [&](std::vector<Load>& loads) { scene_.findBodyLoads(loads_, *coupling_, fluid_.newLoadShare(), loads); };
+    std::vector<Load>& loads = bodyLoads_;
+    findLoads(loads);
     ContactAnswer answer = coupling_->correct(loads);
     if (answer != ContactAnswer::AsksFluid) return answer == ContactAnswer::Changes;
     for (; answer == ContactAnswer::AsksFluid; answer = coupling_->correct(loads))
@@ -211,7 +216,8 @@ bool CoupledStep::correctContact(StepResult& result)
             coupling_->startProbe(k);
             solveFlow(result, 0);
             if (!result.failure.empty()) break;
-            coupling_->takeProbe(k, bodyLoads());
+            findLoads(probeLoads_);
+            coupling_->takeProbe(k, probeLoads_);
         }
         coupling_->finishProbes();
         if (!result.failure.empty()) break;

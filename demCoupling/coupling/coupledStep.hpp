@@ -110,6 +110,12 @@ private:
     std::vector<std::string> waiting_;      // of the step to come
     std::vector<Fluid::SolidLoad> loads_;   // fluid loads of the last solve
     std::vector<double> wet_;
+    std::vector<double> sceneBefore_;       // of the step's start, as the next
+    std::vector<Fluid::SolidLoad> loadsBefore_;
+    std::vector<Motion> motions_;           // work of a step, as the following: of the bodies
+    std::vector<FreeBody> freeBodies_;
+    std::vector<Load> bodyLoads_, probeLoads_;
+    std::vector<char> mayBeOutside_;
     double displaced_ = 0;
     double contactChange_ = 0;  // residual over the right-hand side that the first new contact load of the last step left; 0: there was none
     int contactRepeats_ = 0;    // new contact loads in the last step

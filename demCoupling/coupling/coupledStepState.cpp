@@ -22,7 +22,7 @@ CoupledStep::Arrays CoupledStep::save() const
     Arrays arrays;
     arrays["liquid"] = {fluid_.keptLiquid()};
     if (scene_.isEmpty()) return arrays;
-    arrays["solids"] = scene_.save();
+    scene_.save(arrays["solids"]);
     std::vector<double> loads;
     for (const auto& l : loads_)
         for (const Vec3* v : {&l.force, &l.moment}) loads.insert(loads.end(), v->data(), v->data() + 3);
@@ -95,7 +95,7 @@ void CoupledStep::restore(FlowState state, const Arrays& arrays, Fields fields, 
     scene_.hide(isNew);
     restoreGeometry(fields == Fields::Cells);
     if (known.size() < isNew.size()) putIn(isNew);
-    wet_ = fluid_.wetFractions();
+    fluid_.findWetFractions(wet_);
 }
 
 /// What is new takes its place, and the liquid there is gone: as at the start of a run, where fields count outside of solids alone. It does not come back elsewhere.

@@ -70,12 +70,11 @@ std::vector<BodyShare> FluidAnswer::known() const
     return result;
 }
 
-std::vector<Load> FluidAnswer::engineLoads(const std::vector<Load>& given, const std::vector<Load>& contact) const
+void FluidAnswer::findEngineLoads(const std::vector<Load>& given, const std::vector<Load>& contact, std::vector<Load>& loads) const
 {
-    std::vector<Load> loads(given);
+    loads = given;
     for (int b = 0; b < int(loads.size()); ++b)
         if (isKnown(b)) loads[b] = asLoad(asVector(loads[b]) + asVector(contact[b]) - shares_[b]*asVector(contact[b]));
-    return loads;
 }
 
 } // namespace flotsam

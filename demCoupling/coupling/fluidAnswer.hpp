@@ -45,7 +45,7 @@ public:
 
     std::vector<BodyShare> known() const;   ///< for the engine
     /// Loads for the engine beside those shares: fluid and weight given, contact as the fluid was solved with.
-    std::vector<Load> engineLoads(const std::vector<Load>& loads, const std::vector<Load>& contact) const;
+    void findEngineLoads(const std::vector<Load>& given, const std::vector<Load>& contact, std::vector<Load>& loads) const;
 
 private:
     static constexpr double leastRatio = 8; // of (mass + added mass)/mass: below, repeats converge by themselves

@@ -66,9 +66,9 @@ void Scene::begin(double time, const BodyCoupling* coupling, const std::vector<c
         if (which[structures_.size() + b]) placeBody(b, *coupling);
 }
 
-std::vector<FreeBody> Scene::freeBodies(const BodyCoupling& coupling, double newLoadShare) const
+void Scene::findFreeBodies(const BodyCoupling& coupling, double newLoadShare, std::vector<FreeBody>& result) const
 {
-    std::vector<FreeBody> result;
+    result.clear();
     for (std::size_t b = 0; b < bodies_.size(); ++b)
     {
         if (coupling.isHeld(int(b))) continue;
@@ -89,7 +89,6 @@ std::vector<FreeBody> Scene::freeBodies(const BodyCoupling& coupling, double new
         body.moment = (1 - share)*last.moment + contact.moment;
         result.push_back(body);
     }
-    return result;
 }
 
 namespace
@@ -128,10 +127,10 @@ std::pair<std::string, double> Scene::fastest(double time, double ahead) const
     return result;
 }
 
-std::vector<double> Scene::save() const
+void Scene::save(std::vector<double>& data) const
 {
     constexpr std::size_t perSolid = 18;
-    std::vector<double> data;
+    data.clear();
     data.reserve(perSolid*solids_.size());
     for (const Solid& s : solids_)
     {
@@ -144,7 +143,6 @@ std::vector<double> Scene::save() const
         data.insert(data.end(), s.offsetSlope.data(), s.offsetSlope.data() + 3);
         data.push_back(double(s.kind));
     }
-    return data;
 }
 
 std::vector<Solid> Scene::stored(const std::vector<double>& data)

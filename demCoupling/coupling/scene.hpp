@@ -38,13 +38,13 @@ public:
     void place(double time, const BodyCoupling* coupling);
 
     /// The free bodies' part of the linear system: states at t^n, weight, last and contact loads, inertia in the placed orientation.
-    std::vector<FreeBody> freeBodies(const BodyCoupling& coupling, double newLoadShare) const;
+    void findFreeBodies(const BodyCoupling& coupling, double newLoadShare, std::vector<FreeBody>& result) const;
 
     /// Mean over the step of fluid force and moment of every body plus its weight: the constant load of the DEM sub-steps. newLoadShare: see Fluid.
     template<class FluidLoad>
-    std::vector<Load> bodyLoads(const std::vector<FluidLoad>& fluid, const BodyCoupling& coupling, double newLoadShare) const
+    void findBodyLoads(const std::vector<FluidLoad>& fluid, const BodyCoupling& coupling, double newLoadShare, std::vector<Load>& loads) const
     {
-        std::vector<Load> loads(bodies_.size());
+        loads.resize(bodies_.size());
         for (std::size_t b = 0; b < bodies_.size(); ++b)
         {
             const FluidLoad& now = fluid[structures_.size() + b];
@@ -53,7 +53,6 @@ public:
             loads[b].force = share*(now.force + bodies_[b].mass*gravity_) + (1 - share)*last.force;
             loads[b].moment = share*now.moment + (1 - share)*last.moment;
         }
-        return loads;
     }
 
     /// Box of the mesh [m], everything without: structures outside of it move nothing.
@@ -64,7 +63,7 @@ public:
     std::pair<std::string, double> fastest(double time, double ahead) const;
 
     /// Poses, motions and offsets of all solids as numbers, and back (checkpoint).
-    std::vector<double> save() const;
+    void save(std::vector<double>& data) const;
     void restore(const std::vector<double>& data);
     void restore(const std::vector<double>& data, const std::vector<int>& known);   ///< of these solids alone: the others stay as they are
     void hide(const std::vector<char>& areHidden);  ///< out of the mesh, until they are placed again

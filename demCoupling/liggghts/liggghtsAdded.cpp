@@ -68,7 +68,9 @@ void checkStored(const LiggghtsModel& model, const std::vector<double>& data, si
 DemState withAdded(const LiggghtsModel& model, const DemState& state, const StoredMembers& stored)
 {
     const std::vector<int> bodies = storedBodies(model, stored), tags = tagsOf(model, bodies);
-    const std::vector<double>&data = state.data, now = saveState(model).data;
+    DemState present;
+    saveState(model, present);
+    const std::vector<double> &data = state.data, &now = present.data;
     size_t nCorners = 0;
     for (const int b : bodies)
         nCorners += cornersOf(model, b);

@@ -83,13 +83,18 @@ struct LiggghtsEngine::Implementation
         return {asVec(b.fcm[body]) - asVec(b.drag[body]), asVec(b.torque[body]) - asVec(b.hdTorque[body])};
     }
 
-    std::vector<BodyState> states() const
+    /// Of all bodies and movers, into memory that is kept.
+    const std::vector<BodyState>& states()
     {
-        std::vector<BodyState> result;
-        result.reserve(static_cast<size_t>(model.bodies.count));
-        for (int b = 0; b < model.bodies.count; ++b)
-            result.push_back(stateOf(b));
-        return result;
+        findStates(static_cast<size_t>(model.bodies.count), now);
+        return now;
+    }
+
+    void findStates(size_t n, std::vector<BodyState>& result) const
+    {
+        result.resize(n);
+        for (size_t b = 0; b < n; ++b)
+            result[b] = stateOf(static_cast<int>(b));
     }
 
     /// What comes next within `left` [s]: free flight for as long as nothing can touch anything, or a while of contact sub-steps.
@@ -100,7 +105,7 @@ struct LiggghtsEngine::Implementation
         const double shortest = stepsBetweenLooks * timeStep;
         if (!isAnyTouched())
         {
-            const std::vector<BodyState> now = states();
+            states();
             for (double t = left; t >= std::min(left, shortest); t *= 0.5)
                 if (reach.isFree(now, loads, isHeld, model.isGone, t) && !model.restraints->mayPull(now, loads, isHeld, t))
                     return {t, largestStep};
@@ -170,6 +175,7 @@ struct LiggghtsEngine::Implementation
     std::optional<CornerSpheres> corners;
     double timeStep = 0;
     long subSteps = 0;
+    std::vector<BodyState> now;         ///< see states()
 };
 
 LiggghtsEngine::LiggghtsEngine(const DemSetup& setup) : impl_(std::make_unique<Implementation>(setup)) {}
@@ -235,20 +241,46 @@ void LiggghtsEngine::advance(double duration, double largestStep)
     });
 }
 
-std::vector<BodyState> LiggghtsEngine::states() const { return first(impl_->states(), impl_->nBodies); }
+void LiggghtsEngine::findStates(std::vector<BodyState>& states) const { impl_->findStates(impl_->nBodies, states); }
+
+std::vector<BodyState> LiggghtsEngine::states() const
+{
+    std::vector<BodyState> result;
+    findStates(result);
+    return result;
+}
 
 std::vector<Load> LiggghtsEngine::meanContactLoads() const { return first(impl_->model.tally->meanOnBodies(), impl_->nBodies); }
 
 std::vector<Load> LiggghtsEngine::meanWallLoads() const
 {
-    std::vector<Load> loads = impl_->model.tally->meanOnWalls();
+    std::vector<Load> onBodies, loads;
+    findMeans(onBodies, loads);
+    return loads;
+}
+
+void LiggghtsEngine::findMeans(std::vector<Load>& onBodies, std::vector<Load>& loads) const
+{
+    const std::vector<Load>& means = impl_->model.tally->meanOnBodies();
+    onBodies.assign(means.begin(), means.begin() + static_cast<std::ptrdiff_t>(impl_->nBodies));
+    loads = impl_->model.tally->meanOnWalls();
     for (size_t m = 0; m < impl_->setup.movers.size(); ++m)
     {
         Load load = impl_->model.tally->meanOnBodies()[impl_->nBodies + m];
         load.moment += (0.5 * (impl_->moverStart[m] + asVec(impl_->model.bodies.xcm[impl_->nBodies + m]))).cross(load.force);
         loads.push_back(load);
     }
-    return loads;
+}
+
+void LiggghtsEngine::findPeaks(std::vector<Vec3>& onBodies, std::vector<Vec3>& onWalls, std::vector<Vec3>& onGroups) const
+{
+    const ContactTally& tally = *impl_->model.tally;
+    const std::vector<Vec3>& bodies = tally.peakOnBodies();
+    const auto movers = bodies.begin() + static_cast<std::ptrdiff_t>(impl_->nBodies);
+    onBodies.assign(bodies.begin(), movers);
+    onWalls = tally.peakOnWalls();
+    onWalls.insert(onWalls.end(), movers, bodies.end());
+    onGroups = tally.peakOnGroups();
 }
 
 std::vector<Vec3> LiggghtsEngine::peakContactForces() const { return first(impl_->model.tally->peakOnBodies(), impl_->nBodies); }
@@ -337,7 +369,14 @@ void LiggghtsEngine::setStates(const std::vector<BodyState>& states)
     placeSpheres(model);
 }
 
-DemState LiggghtsEngine::save() const { return saveState(impl_->model); }
+void LiggghtsEngine::save(DemState& state) const { saveState(impl_->model, state); }
+
+DemState LiggghtsEngine::save() const
+{
+    DemState state;
+    save(state);
+    return state;
+}
 void LiggghtsEngine::restore(const DemState& state) { restoreState(impl_->model, state); }
 
 void LiggghtsEngine::restore(const DemState& state, const StoredMembers& stored)

@@ -54,6 +54,9 @@ public:
     void advance(double duration, double largestStep = 0);
 
     std::vector<BodyState> states() const;
+    void findStates(std::vector<BodyState>& states) const;     ///< as the following, into memory that is kept
+    void findMeans(std::vector<Load>& onBodies, std::vector<Load>& onWalls) const;
+    void findPeaks(std::vector<Vec3>& onBodies, std::vector<Vec3>& onWalls, std::vector<Vec3>& onGroups) const;
     /// Time-mean contact force and moment of each body over the last advance (momentum balance, exact).
     std::vector<Load> meanContactLoads() const;
     /// Time-mean load on each wall, then on each mover, over the last advance, added up in every sub-step: the forces on all of them are the
@@ -87,6 +90,7 @@ public:
     void setStates(const std::vector<BodyState>& states);
 
     DemState save() const;
+    void save(DemState& state) const;      ///< into memory that is kept
     void restore(const DemState& state);    ///< exact: the same advance gives the same bits
     /// Of an engine with fewer bodies and restraints (and the same walls and movers). The others stay as they are: in an engine that has not advanced at their start.
     void restore(const DemState& state, const StoredMembers& stored);

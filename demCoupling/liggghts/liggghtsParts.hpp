@@ -130,7 +130,7 @@ void setGone(LiggghtsModel& model, const std::vector<char>& isGone);
 void markGone(LiggghtsModel& model, const std::vector<char>& isGone);   ///< without moving them
 
 // liggghtsState.cpp
-DemState saveState(const LiggghtsModel& model);
+void saveState(const LiggghtsModel& model, DemState& state);     ///< keeps its memory
 void restoreState(LiggghtsModel& model, const DemState& state);
 
 // liggghtsAdded.cpp

@@ -54,9 +54,8 @@ void readRetreated(LiggghtsModel& model, const double* data)
 
 } // namespace
 
-DemState saveState(const LiggghtsModel& model)
+void saveState(const LiggghtsModel& model, DemState& state)
 {
-    DemState state;
     std::vector<double>& data = state.data;
     data.reserve(stateHeaderLength + static_cast<size_t>(model.bodies.count) * (stateBodyLength + springsPerBody) + model.walls.size() * stateWallLength);
     data = {stateFormat, static_cast<double>(model.bodies.count), static_cast<double>(model.walls.size()),
@@ -83,7 +82,6 @@ DemState saveState(const LiggghtsModel& model)
     appendHistories(model, data);
     model.tally->pairs().append(data);
     model.restraints->append(data);
-    return state;
 }
 
 void restoreState(LiggghtsModel& model, const DemState& state)

@@ -28,58 +28,54 @@ void BodyCompliance::findSurface(const FlowSystem& system, const SolidUnknowns& 
     std::sort(surface_.begin(), surface_.end(), [](const SurfaceNode& a, const SurfaceNode& b) { return std::tie(a.node, a.body) < std::tie(b.node, b.body); });
 }
 
-/// Of this rank's nodes: the lower half of K^T T K.
-std::map<BodyCompliance::Pair, BodyCompliance::Block> BodyCompliance::addedMasses() const
+/// visit(surface node, one of the same node that is not behind it): the lower half of the products of their bodies.
+template<class Visit>
+void BodyCompliance::forPairs(const Visit& visit) const
 {
-    std::map<Pair, Block> blocks;
     for (std::size_t first = 0, k = 0; k < surface_.size(); ++k)
     {
-        const SurfaceNode& a = surface_[k];
-        while (surface_[first].node != a.node) ++first;
-        for (std::size_t l = first; l <= k; ++l)
-        {
-            const SurfaceNode& b = surface_[l];
-            Block& block = blocks[{a.body, b.body}];
-            for (int r = 0; r < nDof_; ++r)
-                for (int c = 0; c < nDof_; ++c) block[r*nDof_ + c] += a.pointwise*a.flux[r]*b.flux[c];
-        }
+        while (surface_[first].node != surface_[k].node) ++first;
+        for (std::size_t l = first; l <= k; ++l) visit(surface_[k], surface_[l]);
     }
-    return blocks;
 }
 
-/// All ranks', each as two bodies and nDof*nDof values.
-std::vector<double> BodyCompliance::gathered(const std::map<Pair, Block>& blocks) const
+/// Of this rank's nodes: the lower half of K^T T K, each block as two bodies and nDof*nDof values, in the order of the bodies.
+void BodyCompliance::findAddedMasses()
 {
-    std::vector<double> values;
-    values.reserve(blocks.size()*(2 + nDof_*nDof_));
-    for (const auto& [bodies, block] : blocks)
+    pairs_.clear();
+    forPairs([&](const SurfaceNode& a, const SurfaceNode& b) { pairs_.emplace_back(a.body, b.body); });
+    std::sort(pairs_.begin(), pairs_.end());
+    pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+    const std::size_t width = 2 + nDof_*nDof_;
+    blocks_.assign(pairs_.size()*width, 0.0);
+    for (std::size_t k = 0; k < pairs_.size(); ++k)
     {
-        values.insert(values.end(), {double(bodies.first), double(bodies.second)});
-        values.insert(values.end(), block.begin(), block.begin() + nDof_*nDof_);
+        blocks_[k*width] = pairs_[k].first;
+        blocks_[k*width + 1] = pairs_[k].second;
     }
-    return gatherAll(values, halo_.comm());
+    forPairs([&](const SurfaceNode& a, const SurfaceNode& b)
+    {
+        const auto at = std::lower_bound(pairs_.begin(), pairs_.end(), Pair(a.body, b.body)) - pairs_.begin();
+        double* block = &blocks_[std::size_t(at)*width + 2];
+        for (int r = 0; r < nDof_; ++r)
+            for (int c = 0; c < nDof_; ++c) block[r*nDof_ + c] += a.pointwise*a.flux[r]*b.flux[c];
+    });
 }
 
+/// The matrix's upper half, which is its lower one transposed.
 void BodyCompliance::setEntries(const SolidUnknowns& solids)
 {
     entries_.clear();
     const auto addBlock = [&](int rowBody, int columnBody, auto&& value)
     {
         for (int r = 0; r < nDof_; ++r)
-            for (int c = 0; c < nDof_; ++c) entries_.emplace_back(rowBody*nDof_ + r, columnBody*nDof_ + c, value(r, c));
+            for (int c = 0; c < (rowBody == columnBody ? r + 1 : nDof_); ++c) entries_.push_back({columnBody*nDof_ + c, rowBody*nDof_ + r, value(r, c)});
     };
-    const std::vector<double> blocks = gathered(addedMasses());
-    for (auto b = blocks.begin(); b != blocks.end(); b += 2 + nDof_*nDof_)
+    findAddedMasses();
+    gatherAll(blocks_, halo_.comm(), allBlocks_);
+    for (auto b = allBlocks_.begin(); b != allBlocks_.end(); b += 2 + nDof_*nDof_)
         addBlock(int(b[0]), int(b[1]), [&](int r, int c) { return b[2 + r*nDof_ + c]; });
     for (int f = 0; f < nBodies_; ++f) addBlock(f, f, [&](int r, int c) { return 0.5*(solids.block(f)(r, c) + solids.block(f)(c, r)); });
-}
-
-/// Whether the entries are where the last analysed matrix has them: the bodies that have nodes in common change seldom.
-bool BodyCompliance::hasPattern(const Eigen::SparseMatrix<double>& m) const
-{
-    const auto isEqual = [](const int* a, const int* b, Eigen::Index n) { return std::equal(a, a + n, b); };
-    return m.rows() == pattern_.rows() && m.nonZeros() == pattern_.nonZeros() && isEqual(m.outerIndexPtr(), pattern_.outerIndexPtr(), m.outerSize() + 1)
-        && isEqual(m.innerIndexPtr(), pattern_.innerIndexPtr(), m.nonZeros());
 }
 
 void BodyCompliance::set(const FlowSystem& system, const SolidUnknowns& solids, const std::vector<double>& pointwise)
@@ -89,35 +85,17 @@ void BodyCompliance::set(const FlowSystem& system, const SolidUnknowns& solids, 
     if (nBodies_ == 0) return;
     findSurface(system, solids, pointwise);
     setEntries(solids);
-    Eigen::SparseMatrix<double> matrix(nBodies_*nDof_, nBodies_*nDof_);
-    matrix.setFromTriplets(entries_.begin(), entries_.end());
-    if (!hasPattern(matrix))
-    {
-        matrix_.analyzePattern(matrix);
-        pattern_ = matrix;
-    }
-    matrix_.factorize(matrix);
-    if (matrix_.info() != Eigen::Success) nBodies_ = 0;     // the same on every rank
-}
-
-/// motion_ = matrix_^-1 motion_, as matrix_.solve() does it but without memory from the heap.
-void BodyCompliance::solve()
-{
-    work_.noalias() = matrix_.permutationP()*motion_;
-    matrix_.matrixL().solveInPlace(work_);
-    work_.array() /= matrix_.vectorD().array();
-    matrix_.matrixU().solveInPlace(work_);
-    motion_.noalias() = matrix_.permutationPinv()*work_;
+    if (!matrix_.factor(nBodies_*nDof_, entries_)) nBodies_ = 0;     // the same on every rank
 }
 
 void BodyCompliance::correct(double* p)
 {
     if (nBodies_ == 0) return;
-    motion_.setZero(nBodies_*nDof_);
+    motion_.assign(nBodies_*nDof_, 0.0);
     for (const SurfaceNode& s : surface_)
         for (int d = 0; d < nDof_; ++d) motion_[s.body*nDof_ + d] += s.flux[d]*p[s.node];
     halo_.sum(motion_.data(), int(motion_.size()));
-    solve();
+    matrix_.solve(motion_.data());
     for (const SurfaceNode& s : surface_)
     {
         double flux = 0;

@@ -8,12 +8,10 @@
 /// answer, and the added mass K^T T K, are of the diagonal of T: bodies in gaps couple through their common nodes.
 #pragma once
 
+#include "algebra/keptCholesky.hpp"
 #include "algebra/solidUnknowns.hpp"
 
-#include <Eigen/SparseCholesky>
-
-#include <array>
-#include <map>
+#include <utility>
 
 namespace flotsam
 {
@@ -38,23 +36,21 @@ private:
         double pointwise;
     };
     using Pair = std::pair<int, int>;           // bodies, the first not the smaller
-    using Block = std::array<double, 6*6>;      // nDof*nDof, row-major
 
     void findSurface(const FlowSystem& system, const SolidUnknowns& solids, const std::vector<double>& pointwise);
-    std::map<Pair, Block> addedMasses() const;
-    std::vector<double> gathered(const std::map<Pair, Block>& blocks) const;
+    template<class Visit> void forPairs(const Visit& visit) const;
+    void findAddedMasses();
     void setEntries(const SolidUnknowns& solids);
-    bool hasPattern(const Eigen::SparseMatrix<double>& matrix) const;
-    void solve();
 
     const Halo& halo_;
     const int nOwned_;
     int nDof_ = 0, nBodies_ = 0;
     std::vector<SurfaceNode> surface_;  // ascending by node
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> matrix_;     // M + K^T T K: all free bodies, the same on every rank
-    Eigen::SparseMatrix<double> pattern_;                           // that it was analysed for
-    std::vector<Eigen::Triplet<double>> entries_;                   // work: of its lower half
-    Eigen::VectorXd motion_, work_;
+    KeptCholesky matrix_;               // M + K^T T K: all free bodies, the same on every rank
+    std::vector<Pair> pairs_;           // work: bodies with common nodes here
+    std::vector<double> blocks_, allBlocks_;    // likewise: of this rank, of all
+    SparseEntries entries_;             // likewise
+    std::vector<double> motion_;
 };
 
 } // namespace flotsam

@@ -50,18 +50,27 @@ std::vector<std::vector<T>> exchangeLists(const std::vector<std::vector<T>>& out
     return incoming;
 }
 
-/// Collective. The lists of all ranks, one after the other.
-inline std::vector<double> gatherAll(const std::vector<double>& mine, MPI_Comm comm)
+/// Collective. The lists of all ranks, one after the other, into `all`, which keeps its memory.
+inline void gatherAll(const std::vector<double>& mine, MPI_Comm comm, std::vector<double>& all)
 {
     int size;
     MPI_Comm_size(comm, &size);
-    if (size == 1) return mine;
+    if (size == 1)
+    {
+        all = mine;
+        return;
+    }
     const int n = static_cast<int>(mine.size());
     std::vector<int> counts(size), starts(size + 1, 0);
     MPI_Allgather(&n, 1, MPI_INT, counts.data(), 1, MPI_INT, comm);
     for (int r = 0; r < size; ++r) starts[r + 1] = starts[r] + counts[r];
-    std::vector<double> all(starts.back());
+    all.resize(starts.back());
     MPI_Allgatherv(mine.data(), n, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE, comm);
+}
+inline std::vector<double> gatherAll(const std::vector<double>& mine, MPI_Comm comm)
+{
+    std::vector<double> all;
+    gatherAll(mine, comm, all);
     return all;
 }
 

@@ -28,13 +28,8 @@ int GhostHeldNodes::position(int node) const
 
 void GhostHeldNodes::factor(const Entries& entries, int nValues)
 {
-    const int n = int(nodes_.size());
-    Eigen::SparseMatrix<double> matrix(n, n);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    matrix.diagonal() *= 1 + leastShift;
-    matrix_.compute(matrix);
-    if (matrix_.info() != Eigen::Success) nodes_.clear();   // each by its own diagonal then
-    values_.resize(n, nValues);
+    values_.resize(Eigen::Index(nodes_.size()), nValues);
+    if (!matrix_.factor(int(nodes_.size()), entries, leastShift)) nodes_.clear();   // each by its own diagonal then
 }
 
 } // namespace flotsam

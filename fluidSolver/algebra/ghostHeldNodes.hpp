@@ -6,8 +6,9 @@
 #pragma once
 
 #include "algebra/flowSystem.hpp"
+#include "algebra/keptCholesky.hpp"
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/Dense>
 
 namespace flotsam
 {
@@ -16,7 +17,7 @@ namespace flotsam
 class GhostHeldNodes
 {
 public:
-    using Entries = std::vector<Eigen::Triplet<double>>;    // row, column: positions in nodes()
+    using Entries = SparseEntries;  // row, column: positions in nodes()
 
     /// Of nOwned nodes those for which the ghost faces add more to the diagonal than the elements, but for the excluded ones.
     void find(const std::vector<double>& ofGhosts, const std::vector<double>& ofElements, const std::vector<char>& isExcluded);
@@ -28,16 +29,16 @@ public:
     /// In nodes(); -1: none of them.
     int position(int node) const;
 
-    /// Factors the sum of the entries, symmetric; leaves no nodes where that fails. nValues: number of values a node in values().
+    /// Factors the sum of the entries, of the upper half (row <= column); leaves no nodes where that fails. nValues: number of values a node in values().
     void factor(const Entries& entries, int nValues);
 
     /// A row a node, to be set before solve(), which replaces it by the solution.
     Eigen::MatrixXd& values() { return values_; }
-    void solve() { values_ = matrix_.solve(values_); }
+    void solve() { for (Eigen::Index k = 0; k < values_.cols(); ++k) matrix_.solve(values_.col(k).data()); }
 
 private:
     std::vector<int> nodes_;
-    Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> matrix_;
+    KeptCholesky matrix_;
     Eigen::MatrixXd values_;
 };
 

@@ -23,7 +23,7 @@ void HeldPressure::exclude(const FlowSystem& system, std::vector<char>& isExclud
 void HeldPressure::findRows(const FlowSystem& system)
 {
     entries_.clear();
-    const auto add = [&](int row, int node, double value) { if (isFreePressure(system, node)) entries_.emplace_back(row, node, value); };
+    const auto add = [&](int row, int node, double value) { if (isFreePressure(system, node)) entries_.push_back({row, node, value}); };
     for (int k = 0; k < int(held_.nodes().size()); ++k)
     {
         const int i = held_.nodes()[k];
@@ -48,11 +48,10 @@ void HeldPressure::set(const FlowSystem& system, const std::vector<double>& ghos
     held_.find(ghost, ofElements_, isExcluded_);
     if (held_.isEmpty()) return;
     findRows(system);
-    rows_.resize(Eigen::Index(held_.nodes().size()), nOwned_);
-    rows_.setFromTriplets(entries_.begin(), entries_.end());
+    rows_.set(int(held_.nodes().size()), nOwned_, entries_);
     block_.clear();
-    for (const auto& e : entries_)
-        if (const int column = held_.position(e.col()); column >= 0) block_.emplace_back(e.row(), column, e.value());
+    for (const SparseEntry& e : entries_)
+        if (const int column = held_.position(e.column); column >= e.row) block_.push_back({e.row, column, e.value});
     held_.factor(block_, 1);
 }
 
@@ -60,8 +59,12 @@ void HeldPressure::correct(const double* r, double* p)
 {
     if (held_.isEmpty()) return;
     Eigen::MatrixXd& change = held_.values();
-    change.noalias() = -(rows_*Eigen::Map<const Eigen::VectorXd>(p, nOwned_));
-    for (std::size_t k = 0; k < held_.nodes().size(); ++k) change(k, 0) += r[held_.nodes()[k]];
+    for (std::size_t k = 0; k < held_.nodes().size(); ++k)
+    {
+        double product = 0;
+        for (int e = rows_.start()[k]; e < rows_.start()[k + 1]; ++e) product += rows_.value()[e]*p[rows_.column()[e]];
+        change(k, 0) = r[held_.nodes()[k]] - product;
+    }
     held_.solve();
     for (std::size_t k = 0; k < held_.nodes().size(); ++k) p[held_.nodes()[k]] += change(k, 0);
 }

@@ -25,8 +25,8 @@ private:
     const NodeGraph& graph_;
     const int nOwned_;
     GhostHeldNodes held_;
-    Eigen::SparseMatrix<double, Eigen::RowMajor> rows_;     // held_.nodes() by owned nodes
-    GhostHeldNodes::Entries entries_, block_;   // their numbers, and those between held nodes
+    SparseSum rows_;                // held_.nodes() by owned nodes
+    SparseEntries entries_, block_; // their numbers, and the upper half of those between held nodes
     std::vector<char> isExcluded_;
     std::vector<double> ofElements_;
 };

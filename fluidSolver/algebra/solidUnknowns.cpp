@@ -16,15 +16,20 @@ void SolidUnknowns::set(const FlowSystem& system)
     block_.clear();
     inverse_.clear();
     scale_.clear();
+    values_.clear();
     for (std::size_t s = 0; s < system.solids.size(); ++s)
     {
         const SolidCoupling& solid = system.solids[s];
         if (!solid.isFree) continue;
         free_.push_back(int(s));
-        double block[6*6] = {};
-        std::copy(solid.block.begin(), solid.block.end(), block);
-        halo_.sum(block, n*n);
-        for (int k = 0; k < n*n; ++k) block[k] += solid.inertia[k];
+        values_.insert(values_.end(), solid.block.begin(), solid.block.begin() + n*n);
+    }
+    halo_.sum(values_.data(), int(values_.size()));     // of all at once
+    for (std::size_t f = 0; f < free_.size(); ++f)
+    {
+        double* block = &values_[f*n*n];
+        const std::vector<double>& inertia = system.solids[free_[f]].inertia;
+        for (int k = 0; k < n*n; ++k) block[k] += inertia[k];
         const Block& m = block_.emplace_back(Eigen::Map<Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>(block, n, n));
         inverse_.push_back(m.inverse());
         for (int k = 0; k < n; ++k) scale_.push_back(1/std::sqrt(std::abs(m(k, k))));

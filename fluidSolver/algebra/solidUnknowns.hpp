@@ -45,7 +45,7 @@ private:
     std::vector<int> free_;
     std::vector<Block> block_, inverse_;
     std::vector<double> scale_; // free*nDof
-    std::vector<double> values_; // work: free*nDof
+    std::vector<double> values_; // work: entries; in set() blocks
 };
 
 } // namespace flotsam

@@ -52,28 +52,29 @@ void VelocityBlock::setHeldNodes(const FlowSystem& system, const std::vector<dou
 {
     held_.clear();
     if (system.ghosts.empty()) return;
-    std::vector<char> isExcluded(nOwned_);
-    std::vector<double> ofElements(nOwned_);
+    std::vector<char>& isExcluded = isHeld_;
+    isExcluded.assign(nOwned_, 0);
+    ofElements_.assign(nOwned_, 0.0);
     for (int i = 0; i < nOwned_; ++i)
     {
         isExcluded[i] = !system.isActive[i];
         const double* diagonal = &system.matrix.velocity[std::size_t(graph_.diagonal[i])*dim_*dim_];
-        for (int a = 0; a < dim_; ++a) ofElements[i] += diagonal[a*dim_ + a]/dim_;
+        for (int a = 0; a < dim_; ++a) ofElements_[i] += diagonal[a*dim_ + a]/dim_;
     }
     for (const NodeConstraint& c : system.constraints) isExcluded[c.node] = 1;
-    held_.find(ghost, ofElements, isExcluded);
+    held_.find(ghost, ofElements_, isExcluded);
     if (held_.isEmpty()) return;
-    GhostHeldNodes::Entries entries;
-    for (int k = 0; k < int(held_.nodes().size()); ++k) entries.emplace_back(k, k, std::max(ofElements[held_.nodes()[k]], 0.0));
+    entries_.clear();
+    for (int k = 0; k < int(held_.nodes().size()); ++k) entries_.push_back({k, k, std::max(ofElements_[held_.nodes()[k]], 0.0)});
     for (const GhostTerm& g : system.ghosts)
         for (int i = 0; i < dim_ + 2; ++i)
         {
             const int row = held_.position(g.node[i]);
             for (int j = 0; row >= 0 && j < dim_ + 2; ++j)
-                if (const int column = held_.position(g.node[j]); column >= 0)
-                    entries.emplace_back(row, column, g.velocityFactor*g.jumpVelocity[i]*g.jumpVelocity[j]);
+                if (const int column = held_.position(g.node[j]); column >= row)
+                    entries_.push_back({row, column, g.velocityFactor*g.jumpVelocity[i]*g.jumpVelocity[j]});
         }
-    held_.factor(entries, dim_);
+    held_.factor(entries_, dim_);
 }
 
 /// Solves for held_.values() and adds factor times that to the velocities of z.

@@ -42,7 +42,9 @@ private:
     std::vector<float> inverse_;    // nOwned*dim*dim; 0 at the nodes of held_
     GhostHeldNodes held_;           // without prescribed directions
     std::vector<int> lightNodes_;   // ascending: FlowSystem::isLight, but for nodes with prescribed directions and those of held_
-    std::vector<char> isHeld_;      // owned nodes, work of findLightNodes()
+    std::vector<char> isHeld_;      // owned nodes, work of findLightNodes() and setHeldNodes()
+    std::vector<double> ofElements_;    // owned nodes, work of setHeldNodes()
+    SparseEntries entries_;             // likewise
 };
 
 } // namespace flotsam

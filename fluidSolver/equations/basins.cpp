@@ -41,19 +41,20 @@ void Basins::joinLocally(const Cover* cover, const std::vector<int>* isLeftOut)
 /// Every basin has one node with its own lowest number, on the rank that owns it.
 void Basins::number()
 {
-    std::vector<double> own;
+    own_.clear();
     for (int i = 0; i < mesh_.nOwned; ++i)
-        if (lowest_[i] == double(mesh_.globalNode[i])) own.push_back(lowest_[i]);
-    const std::vector<double> all = gatherAll(own, halo_.comm());
-    count_ = int(all.size());
+        if (lowest_[i] == double(mesh_.globalNode[i])) own_.push_back(lowest_[i]);
+    gatherAll(own_, halo_.comm(), all_);
+    count_ = int(all_.size());
     for (int i = 0; i < mesh_.nNodes; ++i) // global numbers ascend with the ranks
-        basin_[i] = lowest_[i] < 0 ? -1 : int(std::lower_bound(all.begin(), all.end(), lowest_[i]) - all.begin());
+        basin_[i] = lowest_[i] < 0 ? -1 : int(std::lower_bound(all_.begin(), all_.end(), lowest_[i]) - all_.begin());
 }
 
 void Basins::find(const Cover* cover, const std::vector<int>* isLeftOut)
 {
     joinLocally(cover, isLeftOut);
-    std::vector<double> least(mesh_.nNodes);
+    std::vector<double>& least = least_;
+    least.resize(mesh_.nNodes);
     for (bool isMoving = true; halo_.any(isMoving); )
     {
         halo_.update(lowest_, 1); // a second-ring copy may not see the element that makes it fluid

@@ -33,6 +33,7 @@ private:
     int count_ = 0;
     std::vector<int> basin_;        // nNodes; while find() works: parent of each node, its own number for the root of a tree
     std::vector<double> lowest_;    // nNodes: lowest global number of a node joined to this one, -1: no fluid
+    std::vector<double> least_, own_, all_; // work: nNodes; basins numbered here, on all ranks
 };
 
 } // namespace flotsam

@@ -43,7 +43,7 @@ void DualCellTransport::useCover(const Cover* cover)
 {
     if (cover)
     {
-        dualVolume_ = dualVolumes(mesh_, cover);
+        findDualVolumes(mesh_, cover, dualVolume_);
     }
     else if (hasSolids_)
     {

@@ -49,10 +49,10 @@ ShareMoments ShareMoments::of(int dim)
     return m;
 }
 
-std::vector<double> dualVolumes(const SimplexMesh& mesh, const Cover* cover)
+void findDualVolumes(const SimplexMesh& mesh, const Cover* cover, std::vector<double>& volume)
 {
     const int n = mesh.dim + 1;
-    std::vector<double> volume(mesh.nNodes, 0);
+    volume.assign(mesh.nNodes, 0);
     for (int e = 0; e < mesh.nElements; ++e)
     {
         if (cover && cover->state[e] == ElementState::Solid)
@@ -67,6 +67,12 @@ std::vector<double> dualVolumes(const SimplexMesh& mesh, const Cover* cover)
             volume[nodes[a]] += isCut ? first[a] : mesh.volume[e]/n;
         }
     }
+}
+
+std::vector<double> dualVolumes(const SimplexMesh& mesh, const Cover* cover)
+{
+    std::vector<double> volume;
+    findDualVolumes(mesh, cover, volume);
     return volume;
 }
 

@@ -40,6 +40,7 @@ struct DualFaceWeights
 /// Fluid volume of the dual cell of every local node [m^dim]: int of its shape function over the fluid part.
 /// Complete for owned and first-ring nodes. cover may be null (no solids).
 std::vector<double> dualVolumes(const SimplexMesh& mesh, const Cover* cover);
+void findDualVolumes(const SimplexMesh& mesh, const Cover* cover, std::vector<double>& volume);
 
 /// Centroid and second moments of the whole dual cells (solids ignored), for owned and first-ring nodes;
 /// after complete() for all local nodes.

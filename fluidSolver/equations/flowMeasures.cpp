@@ -120,10 +120,11 @@ double liquidVolume(const SimplexMesh& mesh, const Halo& halo, const Cover* cove
     return mesh.thickness*halo.sum(sum);
 }
 
-std::vector<double> wetFractions(const SimplexMesh& mesh, const Halo& halo, const Cover* cover, std::size_t nSolids,
-    const std::vector<double>& alpha)
+void findWetFractions(const SimplexMesh& mesh, const Halo& halo, const Cover* cover, std::size_t nSolids,
+    const std::vector<double>& alpha, std::vector<double>& result)
 {
-    std::vector<double> sums(2*nSolids, 0.0);
+    std::vector<double>& sums = result; // wet area and area of each, until they are divided
+    sums.assign(2*nSolids, 0.0);
     for (std::size_t f = 0; cover && f < cover->facets.size(); ++f)
     {
         const CutFacet& facet = cover->facets[f];
@@ -136,9 +137,8 @@ std::vector<double> wetFractions(const SimplexMesh& mesh, const Halo& halo, cons
         sums[2*facet.solid + 1] += facet.area;
     }
     if (nSolids) halo.sum(sums.data(), int(2*nSolids));
-    std::vector<double> result(nSolids, 0.0);
     for (std::size_t s = 0; s < nSolids; ++s) result[s] = sums[2*s + 1] > 0 ? sums[2*s]/sums[2*s + 1] : 0;
-    return result;
+    result.resize(nSolids);
 }
 
 } // namespace flotsam

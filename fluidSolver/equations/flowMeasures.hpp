@@ -36,7 +36,7 @@ std::string describeFastest(const SimplexMesh& mesh, const Halo& halo, const Flo
 double liquidVolume(const SimplexMesh& mesh, const Halo& halo, const Cover* cover, const std::vector<double>& alpha);
 
 /// Liquid share of every solid's surface, 0..1; one value per solid.
-std::vector<double> wetFractions(const SimplexMesh& mesh, const Halo& halo, const Cover* cover, std::size_t nSolids,
-    const std::vector<double>& alpha);
+void findWetFractions(const SimplexMesh& mesh, const Halo& halo, const Cover* cover, std::size_t nSolids,
+    const std::vector<double>& alpha, std::vector<double>& result);
 
 } // namespace flotsam

@@ -139,9 +139,9 @@ void Fluid::findBasins(const Cover* cover)
     areBasinsOld_ = false;
     basins_.find(cover);
     if (!cover_) return;
-    std::vector<char> isFixed = equation_.isPatchPressureFixed();
-    for (int i = 0; gas_ && i < mesh_.nNodes; ++i) isFixed[i] |= gas_->isEdge()[i];
-    pockets_.find(*cover, isFixed);
+    isFixed_ = equation_.isPatchPressureFixed();
+    for (int i = 0; gas_ && i < mesh_.nNodes; ++i) isFixed_[i] |= gas_->isEdge()[i];
+    pockets_.find(*cover, isFixed_);
 }
 
 void Fluid::setPocketPressures()
@@ -234,15 +234,23 @@ SolveReport Fluid::solve(const std::vector<FreeBody>& bodies, double enough)
     return report;
 }
 
-std::vector<Fluid::SolidLoad> Fluid::solidLoads() const
+std::vector<Fluid::SolidLoad> Fluid::solidLoads()
+{
+    std::vector<SolidLoad> loads;
+    findSolidLoads(loads);
+    return loads;
+}
+
+void Fluid::findSolidLoads(std::vector<SolidLoad>& loads)
 {
     const FlowSystem& system = equation_.system();
-    std::vector<double> rows(q_.size());
+    std::vector<double>& rows = solidRows_;
+    rows.assign(q_.size(), 0.0);
     FlowOperator(graph_, halo_, system, mesh_.nOwned).solidRows(x_.data(), q_.data(), rows.data());
     for (std::size_t s = 0; s < system.solids.size(); ++s)
         for (int d = 0; d < system.nDof; ++d) rows[s*system.nDof + d] -= system.solids[s].load[d];
     equation_.addBeyondRows(q_, rows);
-    std::vector<SolidLoad> loads(system.solids.size(), {Vec3::Zero(), Vec3::Zero()});
+    loads.assign(system.solids.size(), {Vec3::Zero(), Vec3::Zero()});
     for (std::size_t s = 0; s < loads.size(); ++s)
     {
         const double* r = &rows[s*system.nDof];
@@ -253,12 +261,18 @@ std::vector<Fluid::SolidLoad> Fluid::solidLoads() const
         }
         else for (int d = 0; d < 3; ++d) { loads[s].force[d] = -r[d]; loads[s].moment[d] = -r[3 + d]; }
     }
-    return loads;
 }
 
 std::vector<Motion> Fluid::solidMotions() const
 {
     std::vector<Motion> motions;
+    findSolidMotions(motions);
+    return motions;
+}
+
+void Fluid::findSolidMotions(std::vector<Motion>& motions) const
+{
+    motions.clear();
     const int nDof = equation_.system().nDof;
     for (std::size_t s = 0; solids_ && s < solids_->size(); ++s)
     {
@@ -272,21 +286,20 @@ std::vector<Motion> Fluid::solidMotions() const
         else for (int d = 0; d < 3; ++d) { m.velocity[d] = q[d]; m.angularVelocity[d] = q[3 + d]; }
         motions.push_back(m);
     }
-    return motions;
 }
 
 /// Nodes inside solids carry the rigid velocity: it is the history of a node that the solid uncovers later.
 void Fluid::moveInactiveNodes()
 {
     if (!cover_ || !solids_) return;
-    const std::vector<Motion> motions = solidMotions();
+    findSolidMotions(motions_);
     for (int i = 0; i < mesh_.nNodes; ++i)
     {
         if (cover_->isActiveNode[i] || cover_->nearestSolid[i] < 0) continue;
         const int s = cover_->nearestSolid[i];
         const std::array<double, 3> p = mesh_.spacePoint(i);
         const Vec3 r = Vec3(p[0], p[1], p[2]) - (*solids_)[s].pose.position;
-        const Vec3 v = motions[s].velocity + motions[s].angularVelocity.cross(r);
+        const Vec3 v = motions_[s].velocity + motions_[s].angularVelocity.cross(r);
         for (int d = 0; d < mesh_.dim; ++d)
         {
             state_.u[std::size_t(i)*mesh_.dim + d] = v[mesh_.axes[d]];

@@ -20,6 +20,7 @@
 #include "equations/patchForces.hpp"
 #include "equations/phaseFieldSupg.hpp"
 #include "equations/shutPockets.hpp"
+#include "equations/solidExtension.hpp"
 #include "equations/squeezedBasins.hpp"
 #include "equations/surfaceLevel.hpp"
 
@@ -60,7 +61,8 @@ public:
 
     /// Fluid force and moment (about the pose's position) on every solid from the last solve, space frame, 3D values.
     struct SolidLoad { Vec3 force, moment; };
-    std::vector<SolidLoad> solidLoads() const;
+    std::vector<SolidLoad> solidLoads();
+    void findSolidLoads(std::vector<SolidLoad>& loads);     ///< into memory that is kept
     /// From now on endStep() finds the forces on these patches (indices in the constructor's), which let no fluid through.
     void watchPatches(const std::vector<int>& patches);
     /// Of every patch in the last accepted step, before it and where it is not watched zero.
@@ -68,10 +70,11 @@ public:
 
     /// Velocity of every solid in the last solve (free: solved; others: as given).
     std::vector<Motion> solidMotions() const;
+    void findSolidMotions(std::vector<Motion>& motions) const;  ///< into memory that is kept
     /// Liquid share of every solid's surface, 0..1. Collective.
-    std::vector<double> wetFractions() const
+    void findWetFractions(std::vector<double>& result) const
     {
-        return flotsam::wetFractions(mesh_, halo_, cover_, solids_ ? solids_->size() : 0, state_.alpha);
+        flotsam::findWetFractions(mesh_, halo_, cover_, solids_ ? solids_->size() : 0, state_.alpha, result);
     }
 
     /// Mean and largest |u|/h over the active elements [1/s]. Collective.
@@ -175,6 +178,10 @@ private:
     std::vector<double> x_, q_;         // solution: nNodes*(dim+1), nDof per solid; x_ is void between endStep() and setFirstGuess(), and lends its memory
     std::vector<PairFlux> ghostFlux_;   // of the last accepted solve
     double liquidBefore_ = 0;
+    RingWork rings_;                    // work, as the following: of extendPhase()
+    std::vector<char> isFixed_;         // of findBasins()
+    std::vector<double> solidRows_;     // of findSolidLoads()
+    std::vector<Motion> motions_;       // of moveInactiveNodes()
 };
 
 } // namespace flotsam

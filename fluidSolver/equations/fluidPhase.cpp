@@ -95,7 +95,7 @@ void Fluid::extendPhase()
 {
     constexpr double unlike = 0.01;  // difference of alpha
     constexpr double beside = 10;   // from the surface, in widths: there the profile ends
-    extendIntoSolids(mesh_, graph_, halo_, *cover_, state_.alpha);
+    extendIntoSolids(mesh_, graph_, halo_, *cover_, state_.alpha, rings_);
     isLevelKnown_ = false;
     findSurface(cover_);
     for (int i : planes_.nodes())

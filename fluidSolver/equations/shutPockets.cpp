@@ -39,41 +39,40 @@ double ShutPockets::fluidShare(const Cover& cover, int i) const
 }
 
 /// Nodes in solids, and in gaps between solids so thin that what flows there means nothing. Not under bodies on walls of the mesh, where films carry what flows.
-std::vector<int> ShutPockets::findLeftOut(const Cover& cover) const
+void ShutPockets::findLeftOut(const Cover& cover)
 {
-    std::vector<int> isLeftOut(mesh_.nNodes, 0);
-    std::vector<char> isKnown(isBoundaryNode_); // many cut elements share a node
+    isLeftOut_.assign(mesh_.nNodes, 0);
+    isKnown_ = isBoundaryNode_; // many cut elements share a node
     for (int i = 0; i < mesh_.nOwned; ++i)
-        if (cover.distance[i] < 0) isLeftOut[i] = isKnown[i] = 1;
+        if (cover.distance[i] < 0) isLeftOut_[i] = isKnown_[i] = 1;
     for (const CutElement& cut : cover.cuts)
         for (int a = 0; a <= mesh_.dim; ++a)
         {
             const int i = mesh_.elements[std::size_t(cut.element)*(mesh_.dim + 1) + a];
-            if (i >= mesh_.nOwned || isKnown[i]) continue;
-            isKnown[i] = 1;
-            isLeftOut[i] = fluidShare(cover, i) < leastShare;
+            if (i >= mesh_.nOwned || isKnown_[i]) continue;
+            isKnown_[i] = 1;
+            isLeftOut_[i] = fluidShare(cover, i) < leastShare;
         }
-    halo_.update(isLeftOut, 1);
-    return isLeftOut;
+    halo_.update(isLeftOut_, 1);
 }
 
 /// Nodes with whole elements all around, or a pressure from a boundary: their fluid is no pocket.
-std::vector<char> ShutPockets::findOpen(const Cover& cover, const std::vector<char>& isPressureFixed) const
+void ShutPockets::findOpen(const Cover& cover, const std::vector<char>& isPressureFixed)
 {
     const int n = mesh_.dim + 1;
-    std::vector<char> isOpen(mesh_.nNodes, 1);
+    isOpen_.assign(mesh_.nNodes, 1);
     for (int e = 0; e < mesh_.nElements; ++e)
-        for (int a = 0; a < n && cover.state[e] != ElementState::Fluid; ++a) isOpen[mesh_.elements[std::size_t(e)*n + a]] = 0;
-    for (int i = 0; i < mesh_.nNodes; ++i) isOpen[i] |= isPressureFixed[i];
-    return isOpen;
+        for (int a = 0; a < n && cover.state[e] != ElementState::Fluid; ++a) isOpen_[mesh_.elements[std::size_t(e)*n + a]] = 0;
+    for (int i = 0; i < mesh_.nNodes; ++i) isOpen_[i] |= isPressureFixed[i];
 }
 
 void ShutPockets::find(const Cover& cover, const std::vector<char>& isPressureFixed)
 {
-    const std::vector<int> isLeftOut = findLeftOut(cover);
-    fluids_.find(&cover, &isLeftOut);
-    std::vector<char> isOutside;
-    fluids_.haveAny(findOpen(cover, isPressureFixed), isOutside);
+    findLeftOut(cover);
+    fluids_.find(&cover, &isLeftOut_);
+    findOpen(cover, isPressureFixed);
+    std::vector<char>& isOutside = isBasinOutside_;
+    fluids_.haveAny(isOpen_, isOutside);
     isIn_.assign(mesh_.nNodes, 0);
     isOutside_.assign(mesh_.nNodes, 0);
     bool areAny = false;
@@ -81,7 +80,7 @@ void ShutPockets::find(const Cover& cover, const std::vector<char>& isPressureFi
     {
         const int f = fluids_.of(i);
         isOutside_[i] = f >= 0 && isOutside[f];
-        const bool isThin = isLeftOut[i] && cover.distance[i] > 0;
+        const bool isThin = isLeftOut_[i] && cover.distance[i] > 0;
         isIn_[i] = isThin || (f >= 0 && !isOutside[f]);
         areAny = areAny || isIn_[i];
     }

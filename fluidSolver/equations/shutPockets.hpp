@@ -39,8 +39,8 @@ public:
     double pressure(int i) const { return pressure_[i]; }               ///< [Pa]
 
 private:
-    std::vector<int> findLeftOut(const Cover& cover) const;
-    std::vector<char> findOpen(const Cover& cover, const std::vector<char>& isPressureFixed) const;
+    void findLeftOut(const Cover& cover);
+    void findOpen(const Cover& cover, const std::vector<char>& isPressureFixed);
     double fluidShare(const Cover& cover, int i) const;
     void addNodesInSolids(const Cover& cover);
 
@@ -52,6 +52,8 @@ private:
     std::vector<int> isIn_;             // nNodes; empty: no pockets on any rank
     std::vector<char> isOutside_;       // nNodes: in fluid that is none
     std::vector<double> pressure_;
+    std::vector<int> isLeftOut_;        // work of find(): nNodes
+    std::vector<char> isKnown_, isOpen_, isBasinOutside_;   // likewise; the last one per basin
 };
 
 } // namespace flotsam

@@ -16,9 +16,11 @@ class Rings
 {
 public:
     /// isKnown: right for owned nodes.
-    Rings(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const std::vector<char>& isKnown, std::vector<double>& values, int width)
-    :   mesh_(mesh), graph_(graph), halo_(halo), values_(values), width_(width), entry_(width + 1), state_(std::size_t(mesh.nNodes)*entry_)
+    Rings(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const std::vector<char>& isKnown, std::vector<double>& values, int width, RingWork& work)
+    :   mesh_(mesh), graph_(graph), halo_(halo), values_(values), width_(width), entry_(width + 1), state_(work.state), left_(work.left), found_(work.found), means_(work.means)
     {
+        state_.resize(std::size_t(mesh.nNodes)*entry_);
+        left_.clear();
         for (int i = 0; i < mesh.nOwned; ++i)
             if (!isKnown[i]) left_.push_back(i);
         areLeft_ = halo.any(!left_.empty());
@@ -81,33 +83,47 @@ private:
     const Halo& halo_;
     std::vector<double>& values_;
     int width_, entry_;             // entry: values and 1 where they are known, so that one exchange a ring keeps both right on the copies
-    std::vector<double> state_;
+    std::vector<double>& state_;
     bool areLeft_;
-    std::vector<int> left_, found_; // owned nodes
-    std::vector<double> means_;     // of found_
+    std::vector<int> &left_, &found_;   // owned nodes
+    std::vector<double>& means_;        // of found_
 };
 
-} // namespace
-
-void extendIntoSolids(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const Cover& cover,
-    std::vector<double>& alpha, int nRings)
+void extendAround(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const std::vector<char>& isKnown, std::vector<double>& values, RingWork& work, int nRings)
 {
-    extendIntoSolids(mesh, graph, halo, cover.isActiveNode, alpha, nRings);
-}
-
-void extendIntoSolids(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const std::vector<char>& isKnown,
-    std::vector<double>& values, int nRings)
-{
-    Rings rings(mesh, graph, halo, isKnown, values, 1);
+    Rings rings(mesh, graph, halo, isKnown, values, 1, work);
     if (!rings.areLeft()) return;
     for (int ring = 0; ring < nRings; ++ring) rings.extend();
     rings.write();
 }
 
+} // namespace
+
+void extendIntoSolids(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const Cover& cover,
+    std::vector<double>& alpha, RingWork& work, int nRings)
+{
+    extendAround(mesh, graph, halo, cover.isActiveNode, alpha, work, nRings);
+}
+
+void extendIntoSolids(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const Cover& cover,
+    std::vector<double>& alpha, int nRings)
+{
+    RingWork work;
+    extendIntoSolids(mesh, graph, halo, cover, alpha, work, nRings);
+}
+
+void extendIntoSolids(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const std::vector<char>& isKnown,
+    std::vector<double>& values, int nRings)
+{
+    RingWork work;
+    extendAround(mesh, graph, halo, isKnown, values, work, nRings);
+}
+
 void extendTo(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const std::vector<char>& isKnown, const std::vector<int>& isWanted,
     std::vector<double>& values, int width)
 {
-    Rings rings(mesh, graph, halo, isKnown, values, width);
+    RingWork work;
+    Rings rings(mesh, graph, halo, isKnown, values, width, work);
     const auto isMissing = [&]
     {
         for (int i = 0; i < mesh.nOwned; ++i)

@@ -8,9 +8,18 @@
 namespace flotsam
 {
 
+/// Memory of the search, to be kept from one to the next.
+struct RingWork
+{
+    std::vector<double> state, means;
+    std::vector<int> left, found;
+};
+
 /// Gives the other nodes within `nRings` rings of known ones (solids: of active nodes) the mean of their neighbours nearer to the fluid, ring
 /// by ring; deeper nodes keep what they have. alpha: nNodes, halo up to date before and after. Collective; the result does
 /// not depend on the number of ranks.
+void extendIntoSolids(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const Cover& cover,
+    std::vector<double>& alpha, RingWork& work, int nRings = 3);
 void extendIntoSolids(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const Cover& cover,
     std::vector<double>& alpha, int nRings = 3);
 void extendIntoSolids(const SimplexMesh& mesh, const NodeGraph& graph, const Halo& halo, const std::vector<char>& isKnown,
