@@ -24,6 +24,7 @@ flotsam_test(layerSeparation unit SOURCES unit/layerSeparation.cpp LIBRARIES flo
 flotsam_test(bluffBody verification SOURCES verification/bluffBody.cpp
   LIBRARIES flotsam_equations flotsam_test_support)
 flotsam_test(facetGroups unit SOURCES unit/facetGroups.cpp LIBRARIES flotsam_equations)
+flotsam_test(keptCholesky unit SOURCES unit/keptCholesky.cpp LIBRARIES flotsam_algebra)
 flotsam_test(slipNormals unit SOURCES unit/slipNormals.cpp LIBRARIES flotsam_equations)
 flotsam_test(nodeInertia unit SOURCES unit/nodeInertia.cpp LIBRARIES flotsam_transport_support)
 flotsam_test(elementLanes unit SOURCES unit/elementLanes.cpp LIBRARIES flotsam_transport_support)

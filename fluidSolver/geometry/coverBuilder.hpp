@@ -144,7 +144,6 @@ private:
     bool isOfSharpAlone(const Others& others, int element) const;
     Others othersIn(const Cover& cover, const std::vector<Solid>& solids, int element) const;
     template <int dim> void facesOf(const Others& others, const std::vector<Solid>& solids, int element, CuttingFaces& faces) const;
-    template <int dim> bool isSlitBetween(std::size_t part, std::size_t other, double apart) const;
     template <int dim> bool overlap(std::size_t part, std::size_t other, int element) const;
     template <int dim> Separation separation(const std::vector<int>& solidOf, int element) const;
     template <int dim> void cutElementOfSolids(Cover& cover, const std::vector<Solid>& solids, int element) const;

@@ -172,28 +172,11 @@ void CoverBuilder::cutPatchFaces(Cover& cover, int element, const CuttingFaces& 
 template void CoverBuilder::cutPatchFaces<2>(Cover&, int, const CuttingFaces&) const;
 template void CoverBuilder::cutPatchFaces<3>(Cover&, int, const CuttingFaces&) const;
 
-/// More than `apart` everywhere between a face of one and a face of the other: the sum of their distances tells, as of logs beside each other.
-template <int dim>
-bool CoverBuilder::isSlitBetween(std::size_t part, std::size_t other, double apart) const
-{
-    constexpr int n = dim + 1;
-    for (int f = 0; f < cutting_.nFaces(part); ++f)
-        for (int g = 0; g < cutting_.nFaces(other); ++g)
-        {
-            const double *first = cutting_.distancesOf(part, dim) + f * n, *second = cutting_.distancesOf(other, dim) + g * n;
-            int a = 0;
-            while (a < n && first[a] + second[a] > apart) ++a;
-            if (a == n) return true;
-        }
-    return false;
-}
-
 /// Two parts of `cutting_` have anything in common, or less than `touching` between them.
 template <int dim>
 bool CoverBuilder::overlap(std::size_t part, std::size_t other, int element) const
 {
     constexpr double touching = 1e-8;   // over the element length: a hundred times what nodes count as solid by
-    if (isSlitBetween<dim>(part, other, 3 * touching * mesh_.h[element])) return false;
     joined_.clear();
     for (std::size_t p : {other, part}) joined_.insert(joined_.end(), cutting_.distancesOf(p, dim), cutting_.distancesOf(p, dim) + cutting_.nFaces(p) * (dim + 1));
     for (double& distance : joined_) distance -= touching * mesh_.h[element];
