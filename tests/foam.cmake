@@ -11,6 +11,7 @@ flotsam_test(foamInletFlow unit SOURCES unit/foamInletFlow.C LIBRARIES flotsam_f
 flotsam_test(variableHeight verification SOURCES verification/variableHeight.C LIBRARIES flotsam_foam_test flotsam_test_support RANKS 1 2)
 flotsam_test(foamFields unit SOURCES unit/foamFields.C LIBRARIES flotsam_foam_test RANKS 1 2)
 flotsam_test(foamSurfaceFromCells unit SOURCES unit/foamSurfaceFromCells.C LIBRARIES flotsam_foam_test RANKS 1 2)
+flotsam_test(foamSmallCells unit SOURCES unit/foamSmallCells.C LIBRARIES flotsam_foam_test flotsam_dem_foam RANKS 1 2)
 flotsam_test(foamWriteTimes unit SOURCES unit/foamWriteTimes.C LIBRARIES flotsam_foam_test)
 flotsam_test(foamBodies unit SOURCES unit/foamBodies.C LIBRARIES flotsam_foam_test flotsam_dem_foam RANKS 1 2)
 flotsam_test(foamContactSpheres unit SOURCES unit/foamContactSpheres.C LIBRARIES flotsam_foam_test flotsam_dem_foam RANKS 1 2)

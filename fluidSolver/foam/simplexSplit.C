@@ -80,7 +80,7 @@ private:
         best_.clear();
         for (const label apex : cellPoints_)
         {
-            const scalar quality = pull(celli, apex, mesh_.points()[apex]) / volumes_[celli];
+            const scalar quality = pull(celli, apex, mesh_.points()[apex]);
             if (quality > best + tieMargin)
             {
                 best = quality;
@@ -101,7 +101,7 @@ private:
     {
         const int vertex = mesh_.nPoints() + int(split_.centres.size());
         const point centre = visiblePoint(celli);
-        const scalar quality = pull(celli, vertex, centre) / volumes_[celli];
+        const scalar quality = pull(celli, vertex, centre);
         if (!(quality > VSMALL))
         {
             FatalErrorInFunction << "cell " << celli << " with its centre at " << mesh_.cellCentres()[celli]
@@ -201,7 +201,8 @@ private:
         return std::adjacent_find(rim_.begin(), rim_.end()) != rim_.end();
     }
 
-    /// Fills trial_ with the tetrahedra from the apex; smallest volume, -VGREAT when they would not fill the cell conformingly.
+    /// Fills trial_ with the tetrahedra from the apex; smallest volume over the cell's, -VGREAT when they would not fill the cell conformingly (not over a cell's volume: in cells of
+    /// millimetres that is beyond what numbers hold, which OpenFOAM traps).
     scalar pull(label celli, int apex, const point& x)
     {
         trial_.clear();
@@ -218,7 +219,7 @@ private:
                 return -VGREAT;
             }
         }
-        return trial_.empty() || hasRepeatedRim() ? -VGREAT : smallest;
+        return trial_.empty() || hasRepeatedRim() ? -VGREAT : smallest / volumes_[celli];
     }
 
     /// The point of lowest order first: how cut elements are divided goes by the order of their corners, which must not be that in which the face has its points.
