@@ -112,6 +112,7 @@ std::vector<WallDefinition> makeMeshWalls(const Foam::polyMesh& mesh, const Foam
     rest.material = material;
     rest.kind = WallDefinition::Kind::Surface;
     rest.surface = stitched(gatherAll(localTriangles(mesh, patch), halo.comm()));
+    if (rest.surface.triangles.empty()) return {}; // tools that cut meshes leave patches without faces
     const auto bounds = meshBounds(mesh);
     const double tolerance = 1e-7*(bounds[1] - bounds[0]).norm();
     const std::vector<PlanarPart> parts = planarParts(rest.surface, tolerance, mostPlanes);

@@ -44,6 +44,17 @@ TEST_CASE("walls and mirror planes stop bodies where nothing else is said")
     }
 }
 
+TEST_CASE("a patch of type wall without faces, as subsetMesh and snappyHexMesh leave them, is no wall")
+{
+    FoamCase foam("foamChannel", {{"system/blockMeshDict", "outlet { type patch;", "unused { type wall; faces (); } outlet { type patch;"}});
+    const MeshAdapter adapter = makeSimplexMesh(foam.mesh(), MPI_COMM_WORLD);
+    const Halo halo(adapter.mesh, MPI_COMM_WORLD);
+    const char* body = "bodies { bar { shape { type box; size (0.1 0.1 0.1); } density 500; position (1 0.5 0.05); } }";
+    const BodiesInput input = readBodies(parse(body), foam.mesh(), adapter.mesh, halo, Vec3(0, -9.81, 0));
+    REQUIRE(input.walls.size() == 1);
+    CHECK(input.walls[0].name == "floor");
+}
+
 TEST_CASE("the thinnest body, and the thinnest of those that the cut does not see between the nodes")
 {
     BodiesScene s;
