@@ -17,6 +17,7 @@ constexpr double reachOfFilm = 0.5;     // over the height of the elements on th
 constexpr double facingCosine = 0.5;    // least one of a face that looks at the wall
 constexpr double flatCosine = 0.9;      // of one that lies on it, and ends there: the film goes on to its rim
 constexpr double oppositeCosine = -0.5; // of the normals of walls that face each other
+constexpr double bentCosine = 0.99;     // of the normals of a face and the wall at its node: there the wall is not flat
 
 /// Nodes with an element between two walls that face each other: off both, nothing would be left of a body between. height: 0 off the walls.
 std::vector<double> narrowNodes(const SimplexMesh& mesh, const std::vector<double>& normal, const std::vector<double>& height)
@@ -108,8 +109,8 @@ WallFilm::WallFilm(const SimplexMesh& mesh, const Halo& halo) : mesh_(mesh), pos
     findFaces(halo);
 }
 
-/// Owners give them to the others, which do not see all of them.
-void WallFilm::findFaces(const Halo& halo)
+/// Of each node the faces of the wall: normal, and the other corners.
+std::vector<std::vector<double>> WallFilm::facesOfNodes() const
 {
     const int dim = mesh_.dim;
     std::vector<std::vector<double>> ofNode(mesh_.nNodes);
@@ -117,16 +118,32 @@ void WallFilm::findFaces(const Halo& halo)
     {
         if (patch.type != "wall") continue;
         for (std::size_t f = 0; f < patch.faceElement.size(); ++f)
+        {
+            double v[3];
+            outwardVector(mesh_, patch, f, v);
+            Vec3 normal = Vec3::Zero();
+            for (int d = 0; d < dim; ++d) normal[mesh_.axes[d]] = v[d];
+            normal.normalize();
             for (int a = 0; a < dim; ++a)
             {
                 std::vector<double>& own = ofNode[patch.faceNodes[f*dim + a]];
+                own.insert(own.end(), normal.data(), normal.data() + 3);
                 for (int b = 0; b < dim; ++b)
                 {
                     const std::array<double, 3> x = mesh_.spacePoint(patch.faceNodes[f*dim + b]);
                     if (b != a) own.insert(own.end(), x.begin(), x.end());
                 }
             }
+        }
     }
+    return ofNode;
+}
+
+/// Owners give them to the others, which do not see all of them.
+void WallFilm::findFaces(const Halo& halo)
+{
+    const int ofFace = 3*mesh_.dim;     // normal, other corners
+    const std::vector<std::vector<double>> ofNode = facesOfNodes();
     std::size_t most = 0;
     for (int i = 0; i < mesh_.nOwned; ++i) most = std::max(most, ofNode[i].size());
     const int width = 1 + static_cast<int>(halo.max(double(most)));
@@ -143,9 +160,23 @@ void WallFilm::findFaces(const Halo& halo)
         WallNode& node = nodes_[position_[i]];
         const double* own = &all[std::size_t(i)*width];
         node.firstCorner = corners_.size();
-        for (int k = 0; k < int(own[0]); k += 3) corners_.emplace_back(own[1 + k], own[2 + k], own[3 + k]);
+        node.firstFacing = facings_.size();
+        bool isBent = false;
+        for (int k = 0; k < int(own[0]); k += ofFace)
+        {
+            takeFace(own + 1 + k);
+            isBent = isBent || facings_.back().dot(node.normal) < bentCosine;
+        }
+        if (!isBent) facings_.resize(node.firstFacing);
         node.endCorner = corners_.size();
+        node.endFacing = facings_.size();
     }
+}
+
+void WallFilm::takeFace(const double* numbers)
+{
+    facings_.emplace_back(numbers[0], numbers[1], numbers[2]);
+    for (int k = 3; k < 3*mesh_.dim; k += 3) corners_.emplace_back(numbers[k], numbers[k + 1], numbers[k + 2]);
 }
 
 /// 1: the solid reaches into a face of the wall at the node; 0: it stays a film's thickness away from all of them. distances: of its faces, at the node;
@@ -178,10 +209,26 @@ const WallFilm::WallNode* WallFilm::wallNode(int i, const Solid& solid) const
     return solid.isLoose && position_[i] >= 0 ? &nodes_[position_[i]] : nullptr;
 }
 
-Vec3 WallFilm::pointOver(int i, const WallNode& wall, double heights) const
+Vec3 WallFilm::pointOver(int i, const WallNode& wall, const Vec3& normal, double heights) const
 {
     const std::array<double, 3> x = mesh_.spacePoint(i);
-    return Vec3(x[0], x[1], x[2]) - heights*wall.height*wall.normal;
+    return Vec3(x[0], x[1], x[2]) - heights*wall.height*normal;
+}
+
+Vec3 WallFilm::pointOver(int i, const WallNode& wall, double heights) const { return pointOver(i, wall, wall.normal, heights); }
+
+/// How much a solid's face looks at that face of the wall at which it looks most: at the edge of a step the mean of their normals may be nearly that of the step's side, and a body that
+/// lies on top does not look at that. distance: of the solid's face at the node.
+double WallFilm::cosineToFaces(int i, const WallNode& wall, const SolidPart& part, int face, double distance) const
+{
+    double most = -1;
+    for (std::size_t f = wall.firstFacing; f < wall.endFacing; ++f)
+    {
+        double over[maxFaces];
+        part.faceDistances(pointOver(i, wall, facings_[f], reachOfFilm), over);
+        most = std::max(most, (distance - over[face])/(reachOfFilm*wall.height));
+    }
+    return most;
 }
 
 double WallFilm::thickness(int i, const SolidPart& part) const
@@ -190,7 +237,9 @@ double WallFilm::thickness(int i, const SolidPart& part) const
     if (!wall) return noFilm;
     // beside the solid as far as the film is thick: no jump as its edges pass the node
     const double film = filmThickness*wall->height;
-    return part.plainDistance(pointOver(i, *wall, reachOfFilm)) < film ? film : noFilm;
+    bool isNear = part.plainDistance(pointOver(i, *wall, reachOfFilm)) < film;
+    for (std::size_t f = wall->firstFacing; f < wall->endFacing && !isNear; ++f) isNear = part.plainDistance(pointOver(i, *wall, facings_[f], reachOfFilm)) < film;
+    return isNear ? film : noFilm;
 }
 
 double WallFilm::share(int i, const Solid& solid, double distance) const
@@ -218,7 +267,7 @@ double WallFilm::lift(int i, const SolidPart& part, int nFaces, double* distance
     for (int k = 0; k < nFaces; ++k)
     {
         const double cosine = (here[k] - over[k])/(reachOfFilm*wall->height);
-        if (distances[k] >= film || cosine <= facingCosine) continue;
+        if (distances[k] >= film || (cosine <= facingCosine && cosineToFaces(i, *wall, part, k, here[k]) <= facingCosine)) continue;
         const bool isSteep = cosine <= flatCosine;
         if (isSteep && ofSteep < 0) ofSteep = touch(*wall, part, nFaces, unlifted.data(), -nearer*wall->height);
         const double share = isSteep ? ofSteep : 1;

@@ -46,18 +46,24 @@ private:
         Vec3 normal = Vec3::Zero();     // out of the fluid
         double height = 0;              // of the elements on the wall, the lowest [m]
         std::size_t firstCorner = 0, endCorner = 0; // in corners_
+        std::size_t firstFacing = 0, endFacing = 0; // in facings_; none where the wall is flat
     };
 
     const WallNode* wallNode(int node, const Solid& solid) const;
     const WallNode* jointNode(int node, const Solid& solid) const;
     Vec3 pointOver(int node, const WallNode& wall, double heights) const;
+    Vec3 pointOver(int node, const WallNode& wall, const Vec3& normal, double heights) const;
     void findFaces(const Halo& halo);
+    void takeFace(const double* numbers);
+    std::vector<std::vector<double>> facesOfNodes() const;
+    double cosineToFaces(int node, const WallNode& wall, const SolidPart& part, int face, double distance) const;
     double touch(const WallNode& wall, const SolidPart& part, int nFaces, const double* distances, double shift) const;
 
     const SimplexMesh& mesh_;
     std::vector<int> position_;         // nNodes: in nodes_, -1: not on a wall
     std::vector<WallNode> nodes_;
     std::vector<Vec3> corners_;         // of the walls' faces at each wall node the others than this, face by face
+    std::vector<Vec3> facings_;         // normals of the walls' faces at each wall node where these differ, out of the fluid
 };
 
 } // namespace flotsam

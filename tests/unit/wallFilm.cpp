@@ -119,6 +119,37 @@ TEST_CASE("in a corner of walls the film is on both")
         }
 }
 
+TEST_CASE("bodies that lie on the upper edge of a high step keep closed surfaces: most of the wall at the edge is the step's side")
+{
+    const double top = 0.5;
+    for (const int dim : {2, 3})
+    {
+        Room room(dim, true);
+        SimplexMesh& mesh = room.mesh;
+        for (int i = 0; i < mesh.nNodes; ++i)     // the floor rises between x = 0.5 and 0.6
+        {
+            double* x = &mesh.x[std::size_t(i)*dim];
+            if (x[0] > 0.55) x[1] += top*(1 - x[1]);
+        }
+        mesh.computeGeometry();
+        for (const double x : {0.6, 0.57, 0.62, 0.68})
+            for (const double gap : {-1e-3, -1e-9, 1e-3})
+            {
+                CAPTURE(dim);
+                CAPTURE(x);
+                CAPTURE(gap);
+                CHECK(closure(room, room.cut(looseBox(Vec3(x - 0.13, top + gap, 0.31), Vec3(x + 0.12, top + gap + 0.25, dim == 2 ? 1.31 : 0.68)))).norm() < 1e-7);
+                Solid log = looseBox(Vec3::Zero(), Vec3::Ones());
+                log.shape = dim == 2 ? makeCylinder(Vec3(0, 0, -1), Vec3(0, 0, 1), 0.15) : makeCylinder(Vec3(0, 0, -0.2), Vec3(0, 0, 0.2), 0.15);
+                log.pose.position = Vec3(x, top + gap + 0.15, 0.52);
+                CHECK(closure(room, room.cut(log)).norm() < 1e-7);
+                log.shape = dim == 2 ? makeCylinder(Vec3(0, 0, -1), Vec3(0, 0, 1), 0.13) : makeSphere(Vec3::Zero(), 0.13);
+                log.pose.position = Vec3(x, top + gap + 0.13, 0.52);
+                CHECK(closure(room, room.cut(log)).norm() < 1e-7);
+            }
+    }
+}
+
 TEST_CASE("round bodies keep their volume, structures and bodies away from walls are cut as they are")
 {
     Room room(2, true);
