@@ -6,6 +6,7 @@
 #include "demCoupling/coupling/coupledStep.hpp"
 #include "demCoupling/foam/bodiesReader.H"
 #include "demCoupling/foam/bodyChecks.H"
+#include "demCoupling/foam/continuedContact.H"
 #include "demCoupling/foam/continuedMembers.H"
 #include "demCoupling/foam/continuedMotion.H"
 #include "demCoupling/foam/restraintReader.H"
@@ -252,7 +253,7 @@ bool run(Foam::Time& runTime, Foam::fvMesh& mesh, Task task)
     FoamFields fields(mesh, adapter, halo, controls);
     const auto& g = controls.fluid.gravity;
     const Vec3 gravity(g[0], g[1], g[2]);
-    const BodiesInput bodies = readBodies(mesh, adapter.mesh, halo, gravity);
+    const BodiesInput bodies = readBodies(mesh, adapter.mesh, halo, gravity, readStoredFinest(runTime, adapter.mesh, halo));
     checkEntries(bodies, controls.fluid);
     reportBodies(bodies, controls.fluid, mesh.time().endTime().value());
     reportRestraints(bodies, runTime.value(), runTime.deltaTValue());

@@ -45,6 +45,7 @@ struct BodyDefinition
     bool isPlanar = false;                  ///< 2D scene: moves in the mesh plane only, see planeAxis
     int planeAxis = 2;                      ///< normal of that plane
     double thinnest = 0;                    ///< smallest extent [m] (2D: in the plane), of a union that of its thinnest part
+    double finest = 0;                      ///< radius of the smallest spheres of other bodies that its own are near enough to each other for [m]
 };
 
 /// Of the sphere about a body's centre of mass that holds all of its contact spheres [m].
@@ -86,6 +87,7 @@ struct MoverDefinition
     std::vector<SurfaceSphere> spheres;     ///< DEM surface, in the frame of the pose
     int material = 0;
     std::function<void(double time, Pose&, Motion&)> motion;    ///< time in s
+    double finest = 0;                      ///< as a body's
 };
 
 /// A fixed structure the bodies can touch.

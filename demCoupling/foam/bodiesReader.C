@@ -88,7 +88,7 @@ void readStructures(const Foam::dictionary& dict, const SceneFrame& frame, Bodie
     }
 }
 
-std::vector<BodyGroup> readGroups(const Foam::dictionary& dict, const SceneFrame& frame)
+std::vector<BodyGroup> readGroups(const Foam::dictionary& dict, const SceneFrame& frame, const StoredFinest& stored)
 {
     std::vector<BodyGroup> groups;
     if (!dict.found("bodies")) return groups;
@@ -97,7 +97,7 @@ std::vector<BodyGroup> readGroups(const Foam::dictionary& dict, const SceneFrame
         if (!e.isDict()) failIn(subGroup(dict, "bodies"), text("'", std::string(e.keyword()), "' must be a body: name { shape {..} density ..; .. }."));
         groups.push_back(readBodyGroup(e.keyword(), e.dict(), frame));
     }
-    makeSpheres(groups);
+    makeSpheres(groups, stored);
     return groups;
 }
 
@@ -154,14 +154,15 @@ void addStructureWalls(BodiesInput& input)
     }
 }
 
-void addMovers(const Foam::dictionary& dict, const SceneFrame& frame, const std::vector<BodyGroup>& groups, BodiesInput& input)
+void addMovers(const Foam::dictionary& dict, const SceneFrame& frame, const std::vector<BodyGroup>& groups, const StoredFinest& stored, BodiesInput& input)
 {
     const double smallest = smallestSphere(groups);
     for (StructureDefinition& s : input.structures)
     {
         if (s.wall < 0 || !s.motion) continue;
         s.wall = static_cast<int>(input.walls.size() + input.movers.size());
-        input.movers.push_back(makeMover(subGroup(subGroup(dict, "structures"), s.group), frame, s, smallest));
+        const auto found = stored.find("structure " + s.solid.name);
+        input.movers.push_back(makeMover(subGroup(subGroup(dict, "structures"), s.group), frame, s, found == stored.end() ? smallest : found->second));
     }
 }
 
@@ -274,7 +275,8 @@ void reportOpenWalls(const Foam::polyMesh& mesh, const std::vector<std::string>&
 
 } // namespace
 
-BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh, const SimplexMesh& simplexMesh, const Halo& halo, const Vec3& gravity)
+BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh, const SimplexMesh& simplexMesh, const Halo& halo, const Vec3& gravity,
+    const StoredFinest& stored)
 {
     checkKeywords(dict, {"materials", "contact", "wallMaterial", "wallPatches", "parameters", "structures", "bodies", "restraints"});
     BodiesInput input;
@@ -289,7 +291,7 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
     checkMembersDiffer(dict, input.structures, "structures", [](const StructureDefinition& s) { return s.solid.name; });
     checkCovering(input, simplexMesh, halo, dict);
     reportStructures(input, frame);
-    std::vector<BodyGroup> groups = readGroups(dict, frame);
+    std::vector<BodyGroup> groups = readGroups(dict, frame, stored);
     if (groups.empty())
     {
         for (StructureDefinition& s : input.structures) s.wall = -1;
@@ -314,7 +316,7 @@ BodiesInput readBodies(const Foam::dictionary& dict, const Foam::polyMesh& mesh,
     Obstacles obstacles = makeObstacles(input, frame); // the patches; structures by their shapes
     addStructureWalls(input);
     divideWallTriangles(input, dict);
-    addMovers(dict, frame, groups, input);
+    addMovers(dict, frame, groups, stored, input);
     placeAll(groups, frame, obstacles);
     for (BodyGroup& group : groups)
         for (std::size_t i = 0; i < group.members.size(); ++i)
@@ -364,14 +366,14 @@ double thinnestLinearBody(const BodiesInput& input)
     return thinnestOf(input, isCutLinearly);
 }
 
-BodiesInput readBodies(const Foam::polyMesh& mesh, const SimplexMesh& simplexMesh, const Halo& halo, const Vec3& gravity)
+BodiesInput readBodies(const Foam::polyMesh& mesh, const SimplexMesh& simplexMesh, const Halo& halo, const Vec3& gravity, const StoredFinest& stored)
 {
     warnMisnamed(mesh.time());
     const Foam::IOobject io("bodies", mesh.time().constant(), mesh.time(), Foam::IOobject::READ_IF_PRESENT, Foam::IOobject::NO_WRITE, false);
     const Foam::IOdictionary dict(io);
     checkHeader(dict);
     checkNamesDiffer(dict);
-    return readBodies(dict, mesh, simplexMesh, halo, gravity);
+    return readBodies(dict, mesh, simplexMesh, halo, gravity, stored);
 }
 
 std::vector<Solid> makeSolids(const BodiesInput& input)

@@ -88,6 +88,23 @@ void makeKindSpheres(const Foam::dictionary& dict, BodyKind& kind, double smalle
         body.corners = body.isPlanar ? sectionCorners(*body.shape, Vec3::Zero(), across, ofCorners) : cornerSpheres(*body.shape, ofCorners);
 }
 
+/// Of a kind: members of one kind have the same spheres, those that join them as well.
+std::optional<double> storedFinest(const BodyGroup& group, std::size_t kind, const StoredFinest& stored)
+{
+    const bool isMany = group.dict->found("array") || group.dict->found("poses") || group.dict->found("random");
+    const auto found = stored.find(isMany ? text("body ", group.name, '.', kind) : "body " + group.name);
+    return found == stored.end() ? std::nullopt : std::optional<double>(found->second);
+}
+
+void reportKeptSpheres(const BodyGroup& group, const BodyKind& kind, double smallest)
+{
+    constexpr double roundOff = 1e-9;
+    const double finest = kind.prototype.finest;
+    if (kind.sphereSpacing > 0 || finest <= (1 + roundOff)*smallest || chooseSpacing(kind, finest) <= (1 + roundOff)*chooseSpacing(kind, smallest)) return;
+    Foam::Info<< text("Contact: ", group.name, " keeps the contact spheres of the stored state, made for others of ", finest, " m and more; new ones of ", smallest,
+        " m sink in deeper between them").c_str() << Foam::nl;
+}
+
 /// density [kg/m3]: 0: as the dictionary says; thinnest: of the group's shape [m].
 BodyKind readKind(const std::string& name, const Foam::dictionary& dict, const Foam::dictionary& shape, double density, const SceneFrame& frame, std::optional<double> thinnest = {})
 {
@@ -169,11 +186,17 @@ std::shared_ptr<const SampledShape> sampleShape(std::shared_ptr<const Shape> sha
     return std::make_shared<SampledShape>(std::move(shape), std::max(0.25*thinnest, std::sqrt(area/largestNumber)));
 }
 
-void makeSpheres(std::vector<BodyGroup>& groups)
+void makeSpheres(std::vector<BodyGroup>& groups, const StoredFinest& stored)
 {
     const double smallest = smallestSphere(groups);
     for (BodyGroup& group : groups)
-        for (BodyKind& kind : group.kinds) makeKindSpheres(*group.dict, kind, smallest);
+        for (std::size_t k = 0; k < group.kinds.size(); ++k)
+        {
+            BodyKind& kind = group.kinds[k];
+            kind.prototype.finest = storedFinest(group, k, stored).value_or(smallest);
+            makeKindSpheres(*group.dict, kind, kind.prototype.finest);
+            if (k == 0) reportKeptSpheres(group, kind, smallest);
+        }
 }
 
 double smallestSphere(const std::vector<BodyGroup>& groups)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "demCoupling/foam/continuedContact.H"
 
+#include "demCoupling/foam/stateFiles.H"
+
 #include "foam/dictionaryChecks.H"
 
 #include <algorithm>
@@ -29,19 +31,58 @@ std::vector<std::string> missing(const std::vector<std::string>& a, const std::v
 ContactParts contactParts(const BodiesInput& input)
 {
     ContactParts parts;
-    const auto add = [&](const std::string& name, std::size_t size)
+    const auto add = [&](const std::string& name, std::size_t size, double finest = 0)
     {
         parts.names.push_back(name);
         parts.sizes.push_back(double(size));
+        parts.finest.push_back(finest);
     };
     for (const WallDefinition& wall : input.walls)
     {
         if (wall.patch.empty()) add("structure " + wall.name, wall.surface.triangles.size());
         else if (parts.names.empty() || parts.names.back() != "patch " + wall.patch) add("patch " + wall.patch, 0);    // one wall for each of its parts
     }
-    for (const MoverDefinition& mover : input.movers) add("structure " + mover.name, mover.spheres.size());
-    for (const BodyDefinition& body : input.bodies) add("body " + body.name, body.spheres.size() + body.corners.size());
+    for (const MoverDefinition& mover : input.movers) add("structure " + mover.name, mover.spheres.size(), mover.finest);
+    for (const BodyDefinition& body : input.bodies) add("body " + body.name, body.spheres.size() + body.corners.size(), body.finest);
     return parts;
+}
+
+std::vector<double> codesOf(const std::vector<std::string>& names)
+{
+    std::vector<double> codes;
+    for (const std::string& name : names)
+    {
+        for (const char c : name) codes.push_back(static_cast<unsigned char>(c));
+        codes.push_back('\n');
+    }
+    return codes;
+}
+
+std::vector<std::string> namesFrom(const std::vector<double>& codes)
+{
+    std::vector<std::string> names(1);
+    for (const double c : codes)
+    {
+        if (c == '\n') names.emplace_back();
+        else names.back() += char(int(c));
+    }
+    names.pop_back();
+    return names;
+}
+
+StoredFinest readStoredFinest(const Foam::Time& runTime, const SimplexMesh& mesh, const Halo& halo)
+{
+    const StateFiles files(runTime, mesh, halo);
+    const StateFiles::Found found = files.find();
+    if (found != StateFiles::Found::Own && found != StateFiles::Found::Shared) return {};
+    const RunState state = found == StateFiles::Found::Own ? files.readOwn() : files.readShared();
+    const auto names = state.arrays.find("contactNames"), finest = state.arrays.find("contactFinest");
+    if (names == state.arrays.end() || finest == state.arrays.end()) return {};
+    StoredFinest stored;
+    const std::vector<std::string> parts = namesFrom(names->second);
+    for (std::size_t k = 0; k < parts.size(); ++k)
+        if (finest->second[k] > 0) stored[parts[k]] = finest->second[k];
+    return stored;
 }
 
 std::string changedContact(const ContactParts& stored, const ContactParts& now)

@@ -59,6 +59,7 @@ MoverDefinition makeMover(const Foam::dictionary& dict, const SceneFrame& frame,
     mover.name = structure.solid.name;
     mover.material = structure.material;
     mover.motion = structure.motion;
+    mover.finest = smallest;
     mover.spheres = contactSpheres(structure, frame, smallest);
     if (mover.spheres.empty())
         failIn(dict, text("2D mesh: bodies feel moving structures that are boxes with a side along ", "xyz"[frame.planeAxis], ", cylinders along it, or unions of these.\n",

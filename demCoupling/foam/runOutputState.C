@@ -19,35 +19,11 @@ namespace flotsam
 namespace
 {
 
-/// Names as numbers, one a line: a state has nothing but numbers.
-std::vector<double> codesOf(const std::vector<std::string>& names)
-{
-    std::vector<double> codes;
-    for (const std::string& name : names)
-    {
-        for (const char c : name) codes.push_back(static_cast<unsigned char>(c));
-        codes.push_back('\n');
-    }
-    return codes;
-}
-
-std::vector<double> codesOf(const std::vector<HistoryMember>& members)
+std::vector<double> memberCodes(const std::vector<HistoryMember>& members)
 {
     std::vector<std::string> names;
     for (const HistoryMember& m : members) names.push_back(m.name);
     return codesOf(names);
-}
-
-std::vector<std::string> namesFrom(const std::vector<double>& codes)
-{
-    std::vector<std::string> names(1);
-    for (const double c : codes)
-    {
-        if (c == '\n') names.emplace_back();
-        else names.back() += char(int(c));
-    }
-    names.pop_back();
-    return names;
 }
 
 /// Ends messages about a constant/bodies that does not fit.
@@ -253,7 +229,7 @@ void RunOutput::checkContact(const RunState& state, const BodiesInput& part) con
     const auto names = state.arrays.find("contactNames"), sizes = state.arrays.find("contactSizes"), starts = state.arrays.find("bodyStarts");
     if (names != state.arrays.end() && sizes != state.arrays.end())
     {
-        const std::string change = changedContact({namesFrom(names->second), sizes->second}, contactParts(part));
+        const std::string change = changedContact({namesFrom(names->second), sizes->second, {}}, contactParts(part));
         if (!change.empty()) throw std::runtime_error("restart: " + begin + change + ". Continue with what it was (`wallPatches`, `contact`)" + startAnew);
     }
     const std::string moved = starts == state.arrays.end() ? "" : bodiesStartedElsewhere(part, starts->second);
@@ -331,13 +307,14 @@ void RunOutput::writeState(const CoupledStep& step, double timeStep)
     }
     state.arrays["fluid"] = fluidRecord(fluid_);
     state.arrays["mesh"] = meshRecord(mesh_, halo_);
-    state.arrays["members"] = codesOf(members_);
+    state.arrays["members"] = memberCodes(members_);
     state.arrays["descriptions"] = describe(bodies_);
     if (!bodies_.bodies.empty())
     {
         const ContactParts parts = contactParts(bodies_);
         state.arrays["contactNames"] = codesOf(parts.names);
         state.arrays["contactSizes"] = parts.sizes;
+        state.arrays["contactFinest"] = parts.finest;
         state.arrays["bodyStarts"] = bodyStarts(bodies_);
     }
     state.scalars = {{"initialLiquid", mass_.initial}, {"inflow", mass_.inflow}, {"outflow", mass_.outflow}, {"liquid", mass_.final},

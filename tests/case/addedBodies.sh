@@ -57,6 +57,7 @@ for ranks in 1 2; do
     [ $ranks = 1 ] && mv jam jam1
     (cd jam$ranks && solve $ranks) || exit
     cp -r jam$ranks more$ranks
+    [ $ranks = 1 ] && cp -r jam1 thin
     late='late { shape { type box; size (0.02 0.2 0.02); } density 590; material wood; position (-0.25 0 0.24); beforeRelease absent; releaseTime 5; }'
     sed -i "/^bodies\$/{n;s/{/{ $late/}" more$ranks/constant/bodies
     goOn jam$ranks $ranks 'continuing the stored state'
@@ -64,6 +65,12 @@ for ranks in 1 2; do
     for case in jam$ranks more$ranks; do [ $ranks = 1 ] || (cd $case && quietly reconstructPar -latestTime) || exit; done
     python "$here/compare.py" jam$ranks more$ranks 1e-11 || exit # the order of sums over contacts follows from the numbers of the spheres
 done
+
+# one that is far thinner than those of the state, whose contact spheres stay as they are, then and in the next state
+sed -i "/^bodies\$/{n;s/{/{ stick { shape { type box; size (0.004 0.2 0.004); } density 590; material wood; position (-0.25 0 0.24); beforeRelease absent; releaseTime 5; }/}" thin/constant/bodies
+goOn thin 1 'not in the stored state: 1 body (stick)'
+grep -q 'bar keeps the contact spheres of the stored state' thin/log.[fm]* || fail "thin: no word of the spheres"
+end=0.032 goOn thin 1 'continuing the stored state'
 
 # a flow without constant/bodies; a bar in front of which another one, moored, is put afterwards; then a second stop
 makeFloatingBar bar

@@ -121,6 +121,31 @@ TEST_CASE("the spheres of a thin body do not get between those of a thick one")
         }
 }
 
+TEST_CASE("bodies that a stored state knows keep their spheres when thinner ones join them, structures that move as well")
+{
+    BodiesScene s;
+    const std::string structures = "structures { arm { shape { type cylinder; end1 (0 0 0.1); end2 (0 0 0.3); radius 0.1; } position (1.5 0.5 0); motion { type linear; velocity (0.1 0 0); } } } ";
+    const std::string thick = "log { shape { type box; size (0.3 0.1 0.12); } density 600; array { count (1 1 2); spacing (0 0 0.15); } position (1 0.5 0.1); } "
+                              "pile { shape { type sphere; radius 0.06; } density 600; position (0.7 0.3 0.2); } ";
+    const std::string thin = "stick { shape { type box; size (0.2 0.01 0.01); } density 600; position (0.3 0.5 0.2); } ";
+    const BodiesInput before = s.read(structures + "bodies { " + thick + "}");
+    StoredFinest stored;
+    for (const BodyDefinition& body : before.bodies) stored["body " + body.name] = body.finest;
+    stored["structure arm"] = before.movers[0].finest;
+    const auto read = [&](const StoredFinest& known)
+    { return readBodies(parse(structures + "bodies { " + thin + thick + "}"), s.foam.mesh(), s.adapter.mesh, s.halo, Vec3(0, -9.81, 0), known); };
+    const BodiesInput anew = read({}), goesOn = read(stored);
+    REQUIRE(anew.bodies[1].spheres.size() > before.bodies[0].spheres.size());
+    for (const std::size_t k : {0, 1, 2})
+    {
+        CHECK(goesOn.bodies[k + 1].name == before.bodies[k].name);
+        CHECK(goesOn.bodies[k + 1].spheres.size() == before.bodies[k].spheres.size());
+    }
+    CHECK(goesOn.movers[0].spheres.size() == before.movers[0].spheres.size());
+    CHECK(goesOn.bodies[0].spheres.size() == anew.bodies[0].spheres.size());
+    CHECK(goesOn.bodies[0].finest < goesOn.bodies[1].finest);
+}
+
 TEST_CASE("spheres of a union are as fine as its thinnest part demands")
 {
     BodiesScene s;
