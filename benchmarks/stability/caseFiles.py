@@ -69,19 +69,23 @@ class SceneCase:
                              adjust=not s.fixedStep, **bodies)
 
     def _fields(self):
+        """Of the start: {path: text}."""
         s = self.scene
         opening = "type pressureInletOutletVelocity; value uniform (0 0 0);"
         alpha, velocity = self._start()
-        u = {"walls": s.walls, "top": opening, "outlet": opening, "frontAndBack": "empty", "inlet": self._inlet()}
+        u = {"walls": s.walls, "blocks": s.blockWall, "top": opening, "outlet": opening, "frontAndBack": "empty", "inlet": self._inlet()}
         p = {"walls": "type fixedFluxPressure; value uniform 0;", "top": "type totalPressure; p0 uniform 0; value uniform 0;", "frontAndBack": "empty",
              "outlet": "type prghTotalPressure; p0 uniform 0; value uniform 0;" if not s.oneFluid else "type totalPressure; p0 uniform 0; value uniform 0;",
              "inlet": "type fixedFluxPressure; value uniform 0;"}
+        p["blocks"] = p["walls"]
         if s.outlet == "velocity":
             u["outlet"], p["outlet"] = self._inlet(), p["inlet"]
         elif s.outlet == "level":
             p["outlet"] = "type fixedValue; value uniform 0;"
-        a = {"walls": "zeroGradient", "frontAndBack": "empty", **{name: f"type inletOutlet; inletValue uniform {value}; value uniform {value};"
-                                                                   for name, value in (("top", 0), ("outlet", 0), ("inlet", 1))}}
+        a = {"walls": "zeroGradient", "blocks": "zeroGradient", "frontAndBack": "empty",
+             **{name: f"type inletOutlet; inletValue uniform {value}; value uniform {value};" for name, value in (("top", 0), ("outlet", 0), ("inlet", 1))}}
+        if s.discharge:
+            u["inlet"], a["inlet"] = self._discharge()
         names = self._patches()
         chosen = lambda entries: {name: entries[name] for name in names}       # noqa: E731
         fields = [("U", u, velocity), ("p_rgh", p, None)] + ([] if s.oneFluid else [("alpha.water", a, alpha)])
@@ -96,6 +100,17 @@ class SceneCase:
         y = self.mesh.faceHeights()
         values = "\n".join(f"({s.inflow if level < s.inflowDepth * s.length else 0:.9g} 0 0)" for level in y)
         return f"type fixedValue; value nonuniform List<vector> {len(y)} ( {values} );"
+
+    def _discharge(self):
+        """U and alpha of an inlet whose discharge jumps, from bed to top."""
+        s = self.scene
+        q, rows, factor = s.inflow * s.inflowDepth * s.length * s.size[2], [(0, 1)], 1
+        for share, next_ in s.discharge:
+            rows += [(share * s.endTime, factor), (share * s.endTime + 1e-9 * s.endTime, next_)]
+            factor = next_
+        table = " ".join(f"({t:.12g} {q * f:.9g})" for t, f in rows)
+        return (f"type variableHeightFlowRateInletVelocity; flowRate table ({table}); alpha alpha.water; value uniform (0 0 0);",
+                "type variableHeightFlowRate; lowerBound 0; upperBound 0.99; value uniform 0;")
 
     def _start(self):
         """Fractions of the cells by sample points, velocity of the liquid in them."""
@@ -114,23 +129,33 @@ class SceneCase:
             alpha += wet / len(grid)
         return alpha, velocity
 
-    def _solids(self):
+    def _solids(self, bodies=None):
+        """constant/bodies, with these bodies (none: all)."""
         s = self.scene
         text = ""
         if s.bodies:
-            law = s.contact or f"restitution {s.rng.uniform(0.1, 0.9):.3g}; frictionAngle {s.rng.uniform(0, 45):.3g};"
-            thin = min(b.thin for b in s.bodies) * s.length
-            mass = max((b.density + s.rho[0]) * b.volume for b in s.bodies) * s.length**3
-            text += f"contact {{ default {{ stiffness {mass * (s.speed / (0.05 * thin))**2:.6g}; {law} }} }}\n"
+            text += f"contact {{ default {{ {self._contact()} }} }}\n"
+        if s.blockType == "patch":
+            text += "wallPatches (walls blocks);\n"
         motions = [f" motion {{ {x.motion(s.length)} }}" if hasattr(x, "motion") else "" for x in s.structures]
         text += "structures\n{\n" + "".join(self._solid(x, x.entries + m) for x, m in zip(s.structures, motions)) + "}\n"
         text += "bodies\n{\n"
-        for b in s.bodies:
+        for b in s.bodies if bodies is None else bodies:
             text += self._solid(b, f"density {b.density:.9g}; velocity {_vector(b.velocity)}; angularVelocity {_vector(b.spin)}; releaseTime {b.release:.6g}; {b.entries}")
         text += "}\n"
         if s.restraints:
             text += "restraints\n{\n" + "".join(f"    {line(s.length, s.speed)}\n" for line in s.restraints) + "}\n"
         return text
+
+    def _contact(self):
+        """Drawn once."""
+        s = self.scene
+        if not hasattr(self, "_law"):
+            law = s.contact or f"restitution {s.rng.uniform(0.1, 0.9):.3g}; frictionAngle {s.rng.uniform(0, 45):.3g};"
+            thin = min(b.thin for b in s.bodies) * s.length
+            mass = max((b.density + s.rho[0]) * b.volume for b in s.bodies) * s.length**3
+            self._law = f"stiffness {mass * (s.speed / (0.05 * thin))**2:.6g}; {law}"
+        return self._law
 
     def _solid(self, x, entries):
         s = self.scene

@@ -144,7 +144,7 @@ def _available(s, liquid):
 def _history(s, root, folder):
     history = foam.history(root, folder)
     run = history.run
-    volume = np.abs(run["massError"]).max() if not s.oneFluid else 0
+    volume = np.abs(run["massError"]).max() if not s.oneFluid and not s.isFull else 0   # a tank without gas: liquid fills what the cut bodies leave, whose volume varies with their place
     steps = len(history.time) - 1
     courant = min(s.maxCo, 0.5) if s.bodies or any(hasattr(x, "motion") for x in s.structures) else s.maxCo
     asked = s.endTime / (courant * s.h / s.speed) + 50

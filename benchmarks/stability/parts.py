@@ -24,6 +24,7 @@ class Solid:
     spin: np.ndarray = field(default_factory=lambda: np.zeros(3))
     release: float = 0
     entries: str = ""
+    isLate: bool = False                # put into the state of a run that is stopped
 
 
 @dataclass
@@ -63,11 +64,23 @@ class Scene:
     what: list = field(default_factory=list)        # words for the table
     files: dict = field(default_factory=dict)       # of the case: path, text
     rng: object = None
+    # families refined and mixed: caseVariants.py
+    element: str = "hex"                # prism, tet, dual (of tetrahedra), snap
+    halved: list = field(default_factory=list)      # (centre, half sizes, box or ball, directions): cells that refineMesh halves, one after the other
+    snapped: tuple = None               # (foot, top, radius) of a round pier cut out by snappyHexMesh
+    blocks: list = field(default_factory=list)      # (low, high) cut out of the mesh
+    blockWall: str = "noSlip"
+    blockType: str = "wall"             # of their patch
+    finer: float = 1                    # smallest cell over the structured mesh's
+    discharge: list = field(default_factory=list)   # (share of the end time, factor of `inflow` from then on)
+    isFull: bool = False                # two fluids, but no gas
+    stop: float = 0                     # share of the end time; 0: one run
+    ranks: tuple = (1, 1)               # processes before the stop, and after it
 
     @property
     def h(self):
         """Smallest cell [m]."""
-        return min(smallest(self.size[d], self.cells[d], self.ratio[d]) for d in range(self.dim))
+        return self.finer * min(smallest(self.size[d], self.cells[d], self.ratio[d]) for d in range(self.dim))
 
 
 def smallest(length, n, ratio):

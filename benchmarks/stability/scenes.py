@@ -7,9 +7,11 @@ Lengths of a scene are drawn in units of the tank's width and multiplied by `len
 import math
 
 import jam
+import mixed
 import numpy as np
 import parts
 import passing
+import refined
 import shapes
 import tied
 
@@ -190,7 +192,8 @@ def threeD(s):
 
 FAMILIES = {f.__name__: f for f in (tank, damBreak, splash, channel, thrown, deep, structures, moving, oneFluid, options, bigSteps, properties, threeD)}
 
-APART = {"jam": jam.jam, "shapes": shapes.shapes, "passing": passing.passing, "tied": tied.tied}      # do not take turns: more than a minute each, and the numbers of the others stay
+APART = {"jam": jam.jam, "shapes": shapes.shapes, "passing": passing.passing, "tied": tied.tied,
+         "refined": refined.refined, "mixed": mixed.mixed}      # do not take turns: more than a minute each, and the numbers of the others stay
 
 
 def familyOf(number):
@@ -232,7 +235,7 @@ def _finish(s):
     s.liquid = [(inside, v * unit) for inside, v in s.liquid]
     s.size = s.size * L
     height = float(np.abs(s.gravity) @ s.size) + abs(s.gravity[0] * s.slant * s.size[1])
-    given = [np.linalg.norm(v) for _, v in s.liquid] + [2 * s.inflow, 0]
+    given = [np.linalg.norm(v) for _, v in s.liquid] + [2 * s.inflow * max([1] + [q for _, q in s.discharge]), 0]
     given += [np.linalg.norm(b.velocity) + np.linalg.norm(b.spin) * b.radius * L for b in s.bodies]
     s.speed = math.sqrt(2 * height + max(given)**2)
     if s.forced and s.family == "moving":

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """results/stability.csv, a row per scene, and stability.md made from it: a line per family, then what failed and how to repeat it."""
+import contextlib
 import csv
+import fcntl
 import os
 import re
 
@@ -41,15 +43,28 @@ def read(path):
         return list(csv.DictReader(file))
 
 
+@contextlib.contextmanager
+def locked(path):
+    """Two series at once: one reads and writes the files of the results at a time. The lock is on their folder: files are replaced."""
+    folder = os.open(os.path.dirname(path), os.O_RDONLY)
+    try:
+        fcntl.flock(folder, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(folder)
+
+
 def put(path, row):
-    """Stores at once."""
+    """Stores at once, beside what others have stored meanwhile."""
     mine = (str(row["seed"]), str(row["number"]))
-    rows = [r for r in read(path) if (r["seed"], r["number"]) != mine] + [{name: shown(row.get(name, "")) for name in COLUMNS}]
-    rows.sort(key=_order)
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, COLUMNS)
-        writer.writeheader()
-        writer.writerows(rows)
+    with locked(path):
+        rows = [r for r in read(path) if (r["seed"], r["number"]) != mine] + [{name: shown(row.get(name, "")) for name in COLUMNS}]
+        rows.sort(key=_order)
+        with open(path + ".new", "w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, COLUMNS)
+            writer.writeheader()
+            writer.writerows(rows)
+        os.replace(path + ".new", path)
 
 
 def _worst(rows, name):
@@ -57,7 +72,13 @@ def _worst(rows, name):
     return f"{max(values):.2g}" if values else ""
 
 
-def write(path, rows, families, bounds):
+def write(path, csvPath, families, bounds):
+    """The page, from the rows there are by then."""
+    with locked(path):
+        _writePage(path, read(csvPath), families, bounds)
+
+
+def _writePage(path, rows, families, bounds):
     passed = sum(r["verdict"] == "passed" for r in rows)
     commits, machines = (", ".join(dict.fromkeys(r[name] for r in rows)) for name in ("commit", "machine"))
     lines = ["# Numerical stability", "",
