@@ -84,7 +84,7 @@ def _writePage(path, rows, families, bounds):
     lines = ["# Numerical stability", "",
              f"Random scenes, each judged by properties that any stable solution has: **{passed} of {len(rows)} passed** (commit {commits}; {machines}).",
              "Regenerate: `benchmarks/stability/run` (scenes 0 to 259), `benchmarks/stability/run --from 260` (the next 260);",
-             "families jam and shapes: `benchmarks/stability/run --family jam --count 20`;",
+             "families jam, shapes, passing, tied, refined, mixed: `benchmarks/stability/run --family jam --count 20`;",
              "one scene again: `benchmarks/stability/run --seed S NUMBER`; this page alone: `benchmarks/stability/run --report`.", "",
              "## Bounds", "", "| figure | bound | what it is |", "|---|---|---|"]
     lines += [f"| {name} | {'' if limit is None else limit} | {text} |" for name, (limit, text) in bounds.items()]
