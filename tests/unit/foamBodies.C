@@ -46,7 +46,8 @@ TEST_CASE("walls and mirror planes stop bodies where nothing else is said")
 
 TEST_CASE("a patch of type wall without faces, as subsetMesh and snappyHexMesh leave them, is no wall")
 {
-    FoamCase foam("foamChannel", {{"system/blockMeshDict", "outlet { type patch;", "unused { type wall; faces (); } outlet { type patch;"}});
+    FoamCase foam("foamChannel", {{"system/blockMeshDict", "outlet { type patch;", "unused { type wall; faces (); } outlet { type patch;"},
+        {"0/U", "outlet {", "unused { type slip; } outlet {"}, {"0/p_rgh", "outlet {", "unused { type slip; } outlet {"}, {"0/alpha.water", "outlet {", "unused { type slip; } outlet {"}});
     const MeshAdapter adapter = makeSimplexMesh(foam.mesh(), MPI_COMM_WORLD);
     const Halo halo(adapter.mesh, MPI_COMM_WORLD);
     const char* body = "bodies { bar { shape { type box; size (0.1 0.1 0.1); } density 500; position (1 0.5 0.05); } }";
