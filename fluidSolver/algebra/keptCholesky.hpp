@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-/// L D L^T of a small sparse symmetric matrix, step after step in the same memory, its order of elimination (of least degree, by Eigen) found anew only where other entries are there than
-/// before. Up-looking (T. A. Davis, ACM Trans. Math. Softw. 31 (2005) 587, doi 10.1145/1114268.1114277), as Eigen's, which takes new memory for every factor.
+/// L D L^T (Eigen's) of a small sparse symmetric matrix, step after step in the same memory: its order of elimination, of least degree, and the places of its factor are found
+/// anew only where other entries are there than before.
 #pragma once
 
 #include "algebra/sparseSum.hpp"
+
+#include <Eigen/SparseCholesky>
 
 namespace flotsam
 {
@@ -18,19 +20,16 @@ public:
     void solve(double* x);
 
 private:
+    using Matrix = Eigen::SparseMatrix<double>;
+
     void analyse();
-    void countEntries();
-    bool eliminate();
-    int reachOf(int k);
 
     SparseSum sum_;
-    std::vector<int> place_;                    // of each row and column in the order of elimination
-    std::vector<int> orderedStart_, orderedRow_, source_;   // upper half in that order, by columns: places in sum_
-    std::vector<int> parent_, start_, count_;   // elimination tree; columns of L, entries of each so far
-    std::vector<int> row_;                      // of the entries of L
-    std::vector<double> value_, diagonal_, ordered_;
-    std::vector<int> pattern_, tag_;            // work
-    std::vector<double> work_;
+    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order_;
+    Matrix ordered_;            // upper half in the order of elimination: given to Eigen in that order, it is not copied
+    std::vector<int> source_;   // of its values: places in sum_
+    Eigen::SimplicialLDLT<Matrix, Eigen::Upper, Eigen::NaturalOrdering<int>> factor_;
+    Eigen::VectorXd work_;
 };
 
 } // namespace flotsam
