@@ -7,6 +7,7 @@
 #include "SubField.H"
 #include "boundBox.H"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string>
@@ -104,6 +105,16 @@ std::array<Vec3, 2> meshBounds(const Foam::polyMesh& mesh)
     return {toVec3(box.min()), toVec3(box.max())};
 }
 
+TriSurface withoutFolds(TriSurface surface)
+{
+    const auto corners = [](std::array<int, 3> t) { std::sort(t.begin(), t.end()); return t; };
+    std::map<std::array<int, 3>, int> count;
+    for (const auto& t : surface.triangles) ++count[corners(t)];
+    const auto isFolded = [&](const std::array<int, 3>& t) { return count[corners(t)] % 2 == 0; };
+    surface.triangles.erase(std::remove_if(surface.triangles.begin(), surface.triangles.end(), isFolded), surface.triangles.end());
+    return surface;
+}
+
 std::vector<WallDefinition> makeMeshWalls(const Foam::polyMesh& mesh, const Foam::polyPatch& patch, const Halo& halo, int material)
 {
     constexpr std::size_t mostPlanes = 12; // of a patch; a curved one has more
@@ -111,7 +122,7 @@ std::vector<WallDefinition> makeMeshWalls(const Foam::polyMesh& mesh, const Foam
     rest.name = rest.patch = patch.name();
     rest.material = material;
     rest.kind = WallDefinition::Kind::Surface;
-    rest.surface = stitched(gatherAll(localTriangles(mesh, patch), halo.comm()));
+    rest.surface = withoutFolds(stitched(gatherAll(localTriangles(mesh, patch), halo.comm())));
     if (rest.surface.triangles.empty()) return {}; // tools that cut meshes leave patches without faces
     const auto bounds = meshBounds(mesh);
     const double tolerance = 1e-7*(bounds[1] - bounds[0]).norm();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// constant/bodies: shapes, mass and inertia, members, structures, walls. Spheres: foamContactSpheres.C; places: foamPlacement.C.
+#include "demCoupling/foam/meshWalls.H"
 #include "demCoupling/foam/structureChecks.H"
 #include "support/bodiesScene.H"
 #include "support/near.hpp"
@@ -54,6 +55,15 @@ TEST_CASE("a patch of type wall without faces, as subsetMesh and snappyHexMesh l
     const BodiesInput input = readBodies(parse(body), foam.mesh(), adapter.mesh, halo, Vec3(0, -9.81, 0));
     REQUIRE(input.walls.size() == 1);
     CHECK(input.walls[0].name == "floor");
+}
+
+TEST_CASE("a triangle that a patch folds on itself is none of its wall, the others are joined where it was")
+{
+    TriSurface surface;     // (0 1 2) from both sides, between two others
+    surface.points = {{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}, {0, 1, 1}, {0, -1, 0}};
+    surface.triangles = {{0, 1, 2}, {0, 2, 3}, {2, 1, 0}, {2, 0, 4}};
+    const std::vector<std::array<int, 3>> rest{{0, 2, 3}, {2, 0, 4}};
+    CHECK(withoutFolds(surface).triangles == rest);
 }
 
 TEST_CASE("the thinnest body, and the thinnest of those that the cut does not see between the nodes")
