@@ -43,30 +43,41 @@ breach() {
     breaches=$((breaches + 1))
 }
 
+# Functions below answer in `answer`, without a process of their own: there are thousands of lines.
+declare -A allowedOf rowOfFolder
+while read -r folder allowed; do
+    if [ -n "$folder" ]; then allowedOf[$folder]=$allowed; fi
+done <<< "$arrows"
+
 # the row of `arrows` a file belongs to: its folder or the nearest one above
 rowOf() {
-    local folder=$1
-    while [ "$folder" != . ]; do
-        grep -qE "^$folder( |$)" <<< "$arrows" && break
-        folder=$(dirname "$folder")
-    done
-    echo "$folder"
+    local own=${1%/*} folder
+    if [ -z "${rowOfFolder[$own]-}" ]; then
+        folder=$own
+        while [ "$folder" != . ] && [ -z "${allowedOf[$folder]+has}" ]; do
+            case $folder in */*) folder=${folder%/*} ;; *) folder=. ;; esac
+        done
+        rowOfFolder[$own]=$folder
+    fi
+    answer=${rowOfFolder[$own]}
 }
 
 # path of an included file of this project, empty for others
 ownFile() {
     local folder
-    for folder in "$(dirname "$1")" . fluidSolver tests; do
-        if [ -f "$folder/$2" ]; then
-            realpath --relative-to=. "$folder/$2"
+    answer=
+    for folder in "${1%/*}/" '' fluidSolver/ tests/; do
+        if [ -f "$folder$2" ]; then
+            answer=$folder$2
+            case $answer in ../* | */../* | */./*) answer=$(realpath --relative-to=. "$answer") ;; esac
             return
         fi
     done
 }
 
 checkOwn() {    # file line row included
-    local target
-    target=$(rowOf "$4")
+    rowOf "$4"
+    local target=$answer
     case $1:$4 in
         *.[ch]pp:*.H) breach "$1:$2: $4 is an OpenFOAM-side header; .cpp and .hpp may not include .H" ;;
     esac
@@ -75,8 +86,7 @@ checkOwn() {    # file line row included
         breach "$1:$2: this folder has no row in the table of arrows"
         return
     fi
-    local allowed
-    allowed=$(sed -n "s|^$3  *||p" <<< "$arrows")
+    local allowed=${allowedOf[$3]}
     case " $allowed " in
         *' * '* | *" $target "*) ;;
         *) breach "$1:$2: $3 may not include $target ($4); allowed: ${allowed:-nothing else of this project}" ;;
@@ -108,9 +118,12 @@ includes=0
 while IFS=: read -r file line text; do
     [ -n "$file" ] || continue
     includes=$((includes + 1))
-    included=$(sed -E 's/^[^<"]*[<"]([^>"]*)[>"].*/\1/' <<< "$text")
-    row=$(rowOf "$file")
-    own=$(ownFile "$file" "$included")
+    [[ $text =~ [\<\"]([^\>\"]*)[\>\"] ]] || continue
+    included=${BASH_REMATCH[1]}
+    rowOf "$file"
+    row=$answer
+    ownFile "$file" "$included"
+    own=$answer
     if [ -n "$own" ]; then
         checkOwn "$file" "$line" "$row" "$own"
     else
