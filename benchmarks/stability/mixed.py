@@ -213,11 +213,7 @@ def _collapse(s):
 
 def _jumpingStream(s):
     """Discharge off and on, doubled, halved, at once."""
-    s.slant, s.forced, s.openTop = 0, True, True
-    s.inflowDepth = s.rng.uniform(0.3, 0.45) * s.size[1]
-    s.inflow = s.rng.uniform(0.3, 0.8) * math.sqrt(s.inflowDepth)
-    s.outlet = parts.pick(s.rng, "overfall", "level")
-    s.liquid.append((parts.below(s.inflowDepth), np.array([s.inflow, 0, 0])))
+    parts.stream(s, depth=(0.3, 0.45), froude=(0.3, 0.8))
     times = np.sort(s.rng.uniform(0, 1, size=s.rng.randint(1, 5)))
     s.discharge = [(t, parts.pick(s.rng, 0, 0.5, 1, 2)) for t in times]
     s.what.append("discharge " + " ".join(f"{q:g}" for _, q in s.discharge))

@@ -153,6 +153,15 @@ def pool(s, level=(0.3, 0.6), tilt=0.0):
     return y
 
 
+def stream(s, depth, froude):
+    """Water of a random depth that streams along x through the open box, and out over an edge or at a level. depth: over the box's height; froude: speed over the root of the depth."""
+    s.slant, s.forced, s.openTop = 0, True, True
+    s.inflowDepth = s.rng.uniform(*depth) * s.size[1]
+    s.inflow = s.rng.uniform(*froude) * math.sqrt(s.inflowDepth)
+    s.outlet = pick(s.rng, "overfall", "level")
+    s.liquid.append((below(s.inflowDepth), np.array([s.inflow, 0, 0])))
+
+
 # --- solids -------------------------------------------------------------------------------------------------------------
 
 def through(depth, r):

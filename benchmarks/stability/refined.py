@@ -108,11 +108,7 @@ def _pool(s):
 
 
 def _stream(s):
-    s.slant, s.forced, s.openTop = 0, True, True
-    s.inflowDepth = s.rng.uniform(0.3, 0.55) * s.size[1]
-    s.inflow = s.rng.uniform(0.3, 1.2) * math.sqrt(s.inflowDepth)
-    s.outlet = parts.pick(s.rng, "overfall", "level")
-    s.liquid.append((parts.below(s.inflowDepth), np.array([s.inflow, 0, 0])))
+    parts.stream(s, depth=(0.3, 0.55), froude=(0.3, 1.2))
     for body in _bodies(s, lambda: [s.rng.uniform(0, 0.5), s.inflowDepth * s.rng.uniform(0.5, 1.3), s.rng.uniform(0, s.size[2])], 0):
         body.velocity = np.array([s.inflow, 0, 0])
 

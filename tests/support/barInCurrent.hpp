@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace flotsam::barInCurrent
 {
@@ -52,8 +53,10 @@ inline BodyDefinition makeRoundBar(double density, const Vec3& position)
 {
     BodyDefinition bar = makeBar(density, position);
     bar.shape = makeCylinder(Vec3(0, 0, -0.5), Vec3(0, 0, 1), 0.5*side);
-    bar.volume *= 0.25*3.14159265358979;
+    const double radius = 0.5*side;
+    bar.volume = std::acos(-1.0)*radius*radius;
     bar.mass = density*bar.volume;
+    bar.principalInertia = bar.mass/12*Vec3(1 + 3*radius*radius, 1 + 3*radius*radius, 6*radius*radius);
     return bar;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 /// Flow and contact together: a light bar that a current presses against a stop feels, from the stop, the drag that the same bar
-/// feels when it is fixed; without contact the DEM ends at the velocity that the linear system gave.
+/// feels before its release; without contact the DEM ends at the velocity that the linear system gave.
 #include "support/barInCurrent.hpp"
 #include "support/near.hpp"
 
